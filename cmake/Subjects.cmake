@@ -257,6 +257,9 @@ ${elsewhere}${functions}}
   add_library(${target} OBJECT ${source} ${shares})
   target_link_libraries(${target} PRIVATE nearmiss_flags collide ${libraries})
   target_include_directories(${target} PRIVATE ${NEARMISS_GENERATED})
+  if(NOT per_query)  # an adapter: its library is compiled elsewhere
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Debug>:-O0>)
+  endif()
   if(NOT isolated AND per_query AND NEARMISS_LIBFUZZER AND NEARMISS_FUZZ_SHARED)
     # The shared library of the fuzz targets must not contain them: a target links what its query needs.
     add_library(${target}_per_query STATIC $<TARGET_OBJECTS:${target}>)

@@ -1,8 +1,9 @@
-/// Writes the files that fuzzing engines read beside a target: FOLDER/fuzz_QUERY.dict, the bytes of special numbers in
-/// both scalars, and FOLDER/fuzz_QUERY.options, libFuzzer's options and the address sanitizer's, as OSS-Fuzz reads
-/// them. Usage: engine_files QUERY FOLDER
+/// Writes the files that fuzzing engines read beside a target: FOLDER/fuzz_TARGET.dict, the bytes of special numbers in
+/// both scalars, and FOLDER/fuzz_TARGET.options, libFuzzer's options and the address sanitizer's, as OSS-Fuzz reads
+/// them. Usage: engine_files TARGET FOLDER
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -15,6 +16,7 @@
 
 #include "corpus/generator/generator.hpp"
 #include "corpus/storage/codec.hpp"
+#include "corpus/storage/fuzz_target.hpp"
 
 namespace nearmiss {
 namespace {
@@ -66,11 +68,14 @@ std::string dictionary() {
 /// Seconds for one case. A subject that needs longer loops.
 constexpr int timeout = 10;
 
-/// The cases of a query have two lengths, one for each scalar: longer inputs have surplus bytes, and libFuzzer must not
-/// begin with short ones. fuzz_query.cpp says why branches are not counted. The oracle is not instrumented, so a vector
-/// of libc++ that it has filled looks overfull.
-std::string options(const Query& query) {
-  const std::size_t longest = case_to_bytes(generate(query, Scalar::float64, 1, 0)).size();
+/// A case of a query has one of two lengths, one for each scalar: longer inputs have surplus bytes, and libFuzzer must
+/// not begin with short ones. fuzz_target.cpp says why branches are not counted. The oracle is not instrumented, so a
+/// vector of libc++ that it has filled looks overfull.
+std::string options(const FuzzTarget& target) {
+  std::size_t longest = 0;
+  for (const Query* q : target.queries) {
+    longest = std::max(longest, case_to_bytes(generate(*q, Scalar::float64, 1, 0)).size());
+  }
   return fmt::format(
       "[libfuzzer]\n"
       "len_control = 0\n"
@@ -83,10 +88,10 @@ std::string options(const Query& query) {
       longest, timeout);
 }
 
-void write_engine_files(const Query& query, const std::filesystem::path& folder) {
+void write_engine_files(const FuzzTarget& target, const std::filesystem::path& folder) {
   make_folder(folder);
-  write_file(folder / fmt::format("fuzz_{}.dict", query.name), dictionary());
-  write_file(folder / fmt::format("fuzz_{}.options", query.name), options(query));
+  write_file(folder / fmt::format("fuzz_{}.dict", target.name), dictionary());
+  write_file(folder / fmt::format("fuzz_{}.options", target.name), options(target));
 }
 
 }  // namespace
@@ -94,10 +99,10 @@ void write_engine_files(const Query& query, const std::filesystem::path& folder)
 
 int main(int argc, char** argv) try {
   using namespace nearmiss;
-  if (argc != 3) throw BadInput("engine_files: expects two arguments, QUERY and FOLDER");
-  const Query* query = find_query(argv[1]);
-  if (query == nullptr) throw BadInput(fmt::format("engine_files: {} is no query", argv[1]));
-  write_engine_files(*query, argv[2]);
+  if (argc != 3) throw BadInput("engine_files: expects two arguments, TARGET and FOLDER");
+  const FuzzTarget* target = find_fuzz_target(argv[1]);
+  if (target == nullptr) throw BadInput(fmt::format("engine_files: {} is no fuzz target", argv[1]));
+  write_engine_files(*target, argv[2]);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "%s\n", e.what());
   return 2;

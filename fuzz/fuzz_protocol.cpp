@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "fuzz/fuzzed_query.hpp"
+#include "fuzz/this_target.hpp"
 #include "impl/catalogue/query.hpp"
 #include "impl/host/hosts.hpp"
 #include "impl/host/replies.hpp"
@@ -18,7 +18,7 @@
 #include "impl/host/wire.hpp"
 #include "impl/subject/printable.hpp"
 
-const char* const nearmiss::fuzzed_query = "protocol";
+const char* const nearmiss::this_target = "protocol";
 
 namespace nearmiss {
 namespace {

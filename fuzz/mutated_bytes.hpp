@@ -6,19 +6,20 @@
 #include <vector>
 
 #include "corpus/generator/generator.hpp"
-#include "corpus/storage/codec.hpp"
+#include "corpus/storage/fuzz_target.hpp"
 
 namespace nearmiss {
 
 /// A case near a special configuration, as bytes: the case in `bytes` after 1 to 3 moves of the generator, or a
 /// generated case where `bytes` hold none. `seed` alone decides which.
-inline std::vector<std::uint8_t> mutated_case(const Query& query, std::span<const std::uint8_t> bytes,
+inline std::vector<std::uint8_t> mutated_case(const FuzzTarget& target, std::span<const std::uint8_t> bytes,
                                               std::uint64_t seed) {
-  if (auto c = case_from_bytes(query, bytes)) {
+  if (auto c = target.case_of(bytes)) {
     mutate(*c, seed);
-    return case_to_bytes(*c);
+    return target.bytes_of(*c);
   }
-  return case_to_bytes(generate(query, seed % 4 < 2 ? Scalar::float32 : Scalar::float64, seed, 0));
+  const Query& query = *target.queries[seed / 4 % target.queries.size()];
+  return target.bytes_of(generate(query, seed % 4 < 2 ? Scalar::float32 : Scalar::float64, seed, 0));
 }
 
 }  // namespace nearmiss

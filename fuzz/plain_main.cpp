@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "corpus/storage/codec.hpp"
-#include "fuzz/fuzzed_query.hpp"
+#include "corpus/storage/fuzz_target.hpp"
+#include "fuzz/this_target.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -33,10 +34,12 @@ std::vector<fs::path> files_of(const fs::path& named) {
 std::vector<std::uint8_t> bytes_of(const fs::path& file) {
   if (file.extension() == ".json") {
     const Case c = read_case(file);
-    if (c.query->name != fuzzed_query) {
-      throw BadInput(fmt::format("{}: query is \"{}\": it must be \"{}\"", file.string(), c.query->name, fuzzed_query));
+    const FuzzTarget* const target = find_fuzz_target(this_target);
+    if (target == nullptr || !target->asks(*c.query)) {
+      throw BadInput(
+          fmt::format("{}: query is \"{}\", which fuzz_{} does not ask", file.string(), c.query->name, this_target));
     }
-    return case_to_bytes(c);
+    return target->bytes_of(c);
   }
   const std::string text = read_file(file);
   return {text.begin(), text.end()};
@@ -47,7 +50,7 @@ void replay(const fs::path& file) {
   if (LLVMFuzzerTestOneInput(bytes.data(), bytes.size()) != 0) {
     throw BadInput(
         fmt::format("{}: no case of {}: too few bytes, inputs that break a rule, or none of the profile's scene",
-                    file.string(), fuzzed_query));
+                    file.string(), this_target));
   }
 }
 
@@ -63,9 +66,8 @@ int main(int argc, char** argv) try {
     }
   }
   if (replayed == 0)
-    throw nearmiss::BadInput(
-        fmt::format("fuzz_{}: no files to replay; usage: FILE|FOLDER ...", nearmiss::fuzzed_query));
-  std::printf("fuzz_%s: %zu cases replayed\n", nearmiss::fuzzed_query, replayed);
+    throw nearmiss::BadInput(fmt::format("fuzz_{}: no files to replay; usage: FILE|FOLDER ...", nearmiss::this_target));
+  std::printf("fuzz_%s: %zu cases replayed\n", nearmiss::this_target, replayed);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "%s\n", e.what());
   return 2;

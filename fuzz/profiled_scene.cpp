@@ -25,17 +25,15 @@ nlohmann::json profile_in(const std::string& file) {
   return j;
 }
 
-/// The subject that the profile has answer the query.
-std::string subject_in(const std::string& file, const Query& query) {
-  const nlohmann::json profile = profile_in(file);
+/// The subject that the profile has answer the query; empty where it does not have the query.
+std::string subject_in(const nlohmann::json& profile, const std::string& file, const Query& query) {
   for (const FileValue& q : FileValue(profile, file).at("queries").items()) {
     if (q.at("query").text() == query.name) return q.at("subject").text();
   }
-  throw BadInput(fmt::format("{}: queries: the profile does not have {}", file, query.name));
+  return "";
 }
 
-scenes::Scene scene_in(const std::string& file) {
-  const nlohmann::json profile = profile_in(file);
+scenes::Scene scene_in(const nlohmann::json& profile, const std::string& file) {
   const FileValue scene = FileValue(profile, file).at("scene");
   if (scene.at("file").is_null()) return scenes::load_scene(scene.at("name").text());
   const fs::path own = fs::absolute(file).parent_path() / scene.at("file").text();
@@ -44,26 +42,24 @@ scenes::Scene scene_in(const std::string& file) {
 
 }  // namespace
 
-ProfiledScene::ProfiledScene(const Query& query, const std::string& file)
-    : query_(query), subject_(subject_in(file, query)), scene_(scene_in(file)), ranges_(scene_, query) {}
+ProfiledScene::ProfiledScene(const Query& query, std::string subject, scenes::Scene scene)
+    : query_(&query), subject_(std::move(subject)), scene_(std::move(scene)), ranges_(scene_, query) {}
 
-const ProfiledScene* ProfiledScene::of_environment(const Query& query) {
-  static const ProfiledScene* const known = [&]() -> const ProfiledScene* {
-    const char* file = std::getenv("NEARMISS_PROFILE");
-    if (file == nullptr || *file == '\0') return nullptr;
-    try {
-      static const ProfiledScene scene(query, file);
-      use_measure({{}, scenes::limits_of(scene.scene_)});
-      return &scene;
-    } catch (const std::exception& e) {
-      cannot_run(fmt::format("NEARMISS_PROFILE: {}", e.what()));
-    }
-  }();
-  return known;
+std::unique_ptr<const ProfiledScene> ProfiledScene::of_profile(const std::string& file, const Query& query) {
+  try {
+    const nlohmann::json profile = profile_in(file);
+    std::string subject = subject_in(profile, file, query);
+    if (subject.empty()) return nullptr;
+    std::unique_ptr<const ProfiledScene> made(new ProfiledScene(query, std::move(subject), scene_in(profile, file)));
+    use_measure({{}, scenes::limits_of(made->scene_)});
+    return made;
+  } catch (const std::exception& e) {
+    cannot_run(fmt::format("NEARMISS_PROFILE: {}", e.what()));
+  }
 }
 
 void ProfiledScene::bring_back(Case& c, Scalar scalar, unsigned seed) const {
-  if (c.scalar != scalar || !ranges_.fit(c)) c = fresh_case(scalar, seed);
+  if (c.query != query_ || c.scalar != scalar || !ranges_.fit(c)) c = fresh_case(scalar, seed);
 }
 
 }  // namespace nearmiss::fuzz

@@ -12,7 +12,7 @@
 
 #include "corpus/storage/codec.hpp"
 #include "fuzz/asked.hpp"
-#include "fuzz/fuzzed_query.hpp"
+#include "fuzz/this_target.hpp"
 
 namespace nearmiss::fuzz {
 
@@ -57,11 +57,11 @@ void store(const std::filesystem::path& folder, const Case& c, const Subject& su
   }
 }
 
-/// The frame of the subject, or the one for any other subject.
-const AbortFrame* frame_of(const std::string& subject, std::string_view kind) {
+/// The frame of the query and the subject, or the one for any other subject.
+const AbortFrame* frame_of(std::string_view query, const std::string& subject, std::string_view kind) {
   const AbortFrame* other = nullptr;
   for (const AbortFrame& f : abort_frames) {
-    if (f.kind != kind) continue;
+    if (f.query != query || f.kind != kind) continue;
     if (f.subject == nullptr) other = &f;
     if (f.subject != nullptr && f.subject == subject) return &f;
   }
@@ -71,7 +71,7 @@ const AbortFrame* frame_of(const std::string& subject, std::string_view kind) {
 [[noreturn]] void abort_with(const Case& c, const Subject& subject, const std::string& note, std::string kind) {
   std::replace(kind.begin(), kind.end(), ' ', '_');
   std::fprintf(stderr, "%s\n%s%s", note.c_str(), case_file(c, note).c_str(), case_to_cpp(c).c_str());
-  if (const AbortFrame* frame = frame_of(subject.name, kind)) frame->abort();
+  if (const AbortFrame* frame = frame_of(c.query->name, subject.name, kind)) frame->abort();
   std::abort();
 }
 

@@ -467,7 +467,9 @@ class Judgement {
       case Clause::finite_numbers:
       case Clause::no_negative_time: break;
     }
-    return fmt::format("{} is {}", query_.outputs[std::size_t(number)].name, answer_.values[std::size_t(number)]);
+    const double given = answer_.values[std::size_t(number)];
+    const std::string& name = query_.outputs[std::size_t(number)].name;
+    return std::isnan(given) ? name + " is NaN" : fmt::format("{} is {}", name, given);  // whatever the sign of a NaN
   }
   void breaks(MemberFinding& m, Clause c) const { m.broken = c, m.clause = words_of(c, m.worst); }
   /// A wrong place that breaks the contract may break more: does it lie on the surface of any input that the contract

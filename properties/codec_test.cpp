@@ -1,5 +1,6 @@
 /// Cases survive both codecs, and files that are no cases are refused with one clear line.
 #include "corpus/storage/codec.hpp"
+#include "corpus/storage/fuzz_target.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -11,6 +12,8 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 
 #include "corpus/files/near_words.hpp"
 #include "corpus/generator/generator.hpp"
@@ -119,6 +122,53 @@ TEST_P(Codec, NamesEveryInputThatIsMissing) {
 }
 
 INSTANTIATE_FOR_EVERY_QUERY(Every, Codec, testing::ValuesIn(every_query()), testing::PrintToStringParamName());
+
+TEST(FuzzTargets, AskEachQueryOnce) {
+  std::size_t asked = 0;
+  for (const FuzzTarget& t : fuzz_targets()) {
+    EXPECT_EQ(find_fuzz_target(t.name), &t);
+    ASSERT_FALSE(t.queries.empty()) << t.name;
+    for (const Query* q : t.queries) EXPECT_EQ(&fuzz_target_of(*q), &t) << q->name;
+    asked += t.queries.size();
+  }
+  EXPECT_EQ(asked, catalogue().size());
+  EXPECT_EQ(fuzz_target_of(*find_query("box_box_signed_distance")).name, "signed_distance");
+  EXPECT_EQ(fuzz_target_of(*find_query("capsule_box_overlap")).name, "overlap");
+  EXPECT_EQ(fuzz_target_of(*find_query("sphere_box_overlap")).name, "sphere_box_overlap") << "not of the grid";
+  EXPECT_EQ(find_fuzz_target("capsule_box_overlap"), nullptr);
+}
+
+TEST(FuzzTargets, ReadTheCasesThatTheyWrite) {
+  for (const FuzzTarget& t : fuzz_targets()) {
+    for (const Query* q : t.queries) {
+      for (const Scalar scalar : scalars) {
+        const Case c = generate(*q, scalar, 11, 0);
+        const std::optional<Case> back = t.case_of(t.bytes_of(c));
+        ASSERT_TRUE(back) << q->name;
+        ASSERT_EQ(back->query, q);
+        expect_same(c, *back);
+      }
+    }
+    EXPECT_FALSE(t.case_of({})) << t.name;
+  }
+}
+
+/// A fuzzer that changes the first byte asks another pair about the same numbers.
+TEST(FuzzTargets, TakeAnyFirstByte) {
+  const FuzzTarget& target = *find_fuzz_target("overlap");
+  std::vector<std::uint8_t> bytes =
+      target.bytes_of(generate(*find_query("triangle_box_overlap"), Scalar::float64, 3, 0));
+  std::set<const Query*> read;
+  for (int first = 0; first < 256; ++first) {
+    bytes[0] = static_cast<std::uint8_t>(first);
+    const std::optional<Case> c = target.case_of(bytes);
+    if (!c) continue;  // the numbers break a rule of that pair
+    EXPECT_EQ(c->query, target.queries[std::size_t(first / 2) % target.queries.size()]);
+    EXPECT_EQ(c->scalar, first % 2 == 0 ? Scalar::float32 : Scalar::float64);
+    read.insert(c->query);
+  }
+  EXPECT_GE(read.size(), 2u);
+}
 
 TEST(CaseToCpp, GivesInputsThatCompileAndMeanTheSame) {
   const Case c{find_query("moving_point_sphere"),

@@ -1,7 +1,12 @@
 /// The derivation of the grid's overlaps and signed distances: the point of the Minkowski difference of the cores that
 /// is nearest to the origin, by the algorithm of Wolfe (Finding the nearest point in a polytope, Mathematical
-/// Programming 11, 1976) in rationals. Unlike the oracle it finds nearest points, and looks for no direction that
-/// separates.
+/// Programming 11, 1976) in rationals; where the origin is inside, the nearest of the planes through three vertices.
+/// Unlike the oracle it finds points of the difference, and looks for no direction that separates.
+#include <algorithm>
+#include <bitset>
+#include <optional>
+#include <vector>
+
 #include "properties/derivation.hpp"
 
 namespace nearmiss::derived {
@@ -140,24 +145,156 @@ Reference reference_overlap(Reader r) {
   return square_of(nearest_to_origin(Difference(a, b).all).sum()) <= reach * reach ? yes() : no();
 }
 
-/// Of cores whose difference has no volume. The nearest points are a combination of those of two runs of the algorithm:
-/// the pairs of nearest points are a convex set.
+using Rounded = std::array<double, 3>;
+
+/// The points divided by the largest number: each coordinate is off by 2^-52 at most.
+std::vector<Rounded> rounded(const std::vector<V>& points) {
+  Q most = 0;
+  for (const V& point : points) {
+    for (const Q& x : point) most = std::max(most, Q(abs(x)));
+  }
+  std::vector<Rounded> all(points.size());
+  for (std::size_t i = 0; most > 0 && i < points.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) all[i][k] = Q(points[i][k] / most).get_d();
+  }
+  return all;
+}
+using Whole = std::array<mpz_class, 3>;
+
+/// The points times `unit`: sums and products of whole numbers need no common divisor.
+std::vector<Whole> in_whole_numbers(const std::vector<V>& points, mpz_class& unit) {
+  unit = 1;
+  for (const V& point : points) {
+    for (const Q& x : point) unit = lcm(unit, x.get_den());
+  }
+  std::vector<Whole> all;
+  for (const V& point : points) {
+    Whole& whole = all.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) whole[k] = point[k].get_num() * (unit / point[k].get_den());
+  }
+  return all;
+}
+mpz_class product(const Whole& a, const Whole& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Whole across(const Whole& from, const Whole& a, const Whole& b) {
+  Whole out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+    out[k] = (a[l] - from[l]) * (b[m] - from[m]) - (a[m] - from[m]) * (b[l] - from[l]);
+  }
+  return out;
+}
+
+/// The planes { x : n . x = 1 } through three of the points that have no point beyond them, by their n. None where the
+/// origin is not inside the convex hull.
+std::vector<V> planes_around_origin(const std::vector<V>& points) {
+  constexpr std::size_t most_points = 64;
+  const std::vector<Rounded> near = rounded(points);
+  mpz_class unit;
+  const std::vector<Whole> exact = in_whole_numbers(points, unit);
+  std::vector<V> planes;
+  std::vector<std::bitset<most_points>> on_planes;
+  std::vector<std::size_t> close;    // to the plane, as far as rounded numbers tell
+  std::size_t above = 0, below = 0;  // points on both sides of the last plane that had some: often of the next too
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t k = 0; k < j; ++k) {
+        const Rounded &p = near[i], &q = near[j], &r = near[k];
+        Rounded about;
+        double lengths = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const std::size_t l = (c + 1) % 3, m = (c + 2) % 3;
+          lengths += std::abs(q[c] - p[c]) + std::abs(r[c] - p[c]);
+          about[c] = (q[l] - p[l]) * (r[m] - p[m]) - (q[m] - p[m]) * (r[l] - p[l]);
+        }
+        // A difference is off by 2^-51, so a product of two by 2^-50 lengths, and the sum of six, each times a third
+        // difference of at most 2, by less than 2^-45 lengths.
+        const double certainly_off = 0x1p-44 * lengths;
+        const auto off = [&](const Rounded& x) {
+          return about[0] * (x[0] - p[0]) + about[1] * (x[1] - p[1]) + about[2] * (x[2] - p[2]);
+        };
+        if (std::min(off(near[above]), off(near[below])) < -certainly_off &&
+            std::max(off(near[above]), off(near[below])) > certainly_off)
+          continue;
+        bool none_above = true, none_below = true;
+        close.clear();
+        for (std::size_t x = 0; x < points.size() && (none_above || none_below); ++x) {
+          const double of_x = off(near[x]);
+          if (of_x > certainly_off) none_above = false, above = x;
+          if (of_x < -certainly_off) none_below = false, below = x;
+          if (std::abs(of_x) <= certainly_off) close.push_back(x);
+        }
+        if (!none_above && !none_below) continue;
+        const bool is_known =
+            std::any_of(on_planes.begin(), on_planes.end(), [&](const auto& on) { return on[i] && on[j] && on[k]; });
+        if (is_known) continue;
+        const Whole out = across(exact[i], exact[j], exact[k]);
+        if (out == Whole{0, 0, 0}) continue;
+        const mpz_class level = product(out, exact[i]);
+        std::bitset<most_points> on;
+        for (const std::size_t x : close) {
+          const mpz_class at = product(out, exact[x]);
+          none_above = none_above && at <= level, none_below = none_below && at >= level;
+          on[x] = at == level;
+        }
+        if ((none_above && level <= 0) || (none_below && level >= 0)) return {};
+        if (none_above || none_below) {
+          const Q per_level = Q(unit) / Q(level);
+          planes.push_back(scaled({Q(out[0]), Q(out[1]), Q(out[2])}, per_level));
+          on_planes.push_back(on);
+        }
+      }
+    }
+  }
+  return planes;
+}
+
+/// Those that are nearest to the origin, by their n. None where the origin is not inside.
+const std::vector<V>& nearest_faces(const std::vector<V>& points) {
+  static thread_local std::vector<V> last, nearest;  // a test draws many right answers of a case
+  if (points == last) return nearest;
+  last = points;
+  nearest.clear();
+  Q most2 = 0;
+  for (const V& n : planes_around_origin(points)) {
+    const Q n2 = square_of(n);
+    if (n2 < most2) continue;
+    if (n2 > most2) most2 = n2, nearest.clear();
+    nearest.push_back(n);
+  }
+  return nearest;
+}
+
+/// The nearest points are a combination of those of two runs of the algorithm: the pairs of nearest points are a convex
+/// set. Where the cores overlap, they are those of the cores after a shortest translation that parts them: from the
+/// origin to a nearest face of the difference.
 template <Body (*read_first)(Reader&), Body (*read_second)(Reader&)>
 Reference reference_signed_distance(Reader r) {
   const Body a = read_first(r), b = read_second(r);
   const Difference d(a, b);
+  V out{};  // the translation of a, inward where the cores overlap
+  const bool meet = square_of(nearest_to_origin(d.all).sum()) == 0;
+  const std::vector<V> faces = meet ? nearest_faces(d.all) : std::vector<V>{};
+  if (!faces.empty()) {
+    const V& face = r.choose.among(faces);
+    out = scaled(face, 1 / square_of(face));
+  }
+  std::vector<V> moved_apart;
+  for (const V& x : d.all) moved_apart.push_back(sub(x, out));
   V point1{}, way{};
   const Q share = r.choose.is_free() ? r.choose.share() : Q(0);
   for (const Q& weight : {Q(1 - share), share}) {
-    const Combination c = nearest_to_origin(d.all, std::size_t(r.choose.below(int(d.all.size()))));
+    const Combination c = nearest_to_origin(moved_apart, std::size_t(r.choose.below(int(d.all.size()))));
     way = c.sum();
     for (std::size_t i = 0; i < c.numbers.size(); ++i) {
       point1 = add(point1, d.of_a[c.numbers[i]], weight * c.weights[i]);
     }
   }
+  const bool overlap = !faces.empty();
+  if (overlap) way = out;
   const V point2 = add(point1, way);
-  Reference reference = yes(R(length(way) - real(Q(a.radius + b.radius))));
-  std::optional<V> direction = way;
+  const R apart = overlap ? R(-length(way)) : length(way);
+  Reference reference = yes(R(apart - real(Q(a.radius + b.radius))));
+  std::optional<V> direction = overlap ? scaled(way, -1) : way;
   if (square_of(way) == 0) {  // any that separates weakly
     std::vector<V> against;
     for (const V& x : d.all) against.push_back(scaled(x, -1));

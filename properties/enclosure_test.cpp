@@ -18,8 +18,6 @@
 namespace nearmiss {
 namespace {
 
-const int cases_per_query = 16 * cases_per_family();
-
 /// A number from -1 to 1 that depends on the arguments alone; often one of the ends.
 double wobble(std::uint64_t a, std::uint64_t b) {
   std::uint64_t z = a * 0x9e3779b97f4a7c15u + b * 0xd1342543de82ef95u + 0x2545f4914f6cdd1du;
@@ -58,6 +56,7 @@ class Enclosures : public testing::TestWithParam<std::string> {
  protected:
   const Query& query() const { return *find_query(GetParam()); }
 
+  int cases() const { return 16 * cases_per_family() / cost_of(query()) + 1; }
   /// Checks the exact answers of an input within the widening against the enclosure; returns how many there were.
   int answers_contained(const Case& c, double k, std::uint64_t salt) const {
     const std::vector<double> wide = widening(query(), c.values, c.scalar, k);
@@ -78,11 +77,11 @@ class Enclosures : public testing::TestWithParam<std::string> {
 
 TEST_P(Enclosures, ContainTheExactAnswerOfEveryInputWithinTheWidening) {
   int checked = 0;
-  for (int i = 0; i < cases_per_query && !HasFailure(); ++i) {
+  for (int i = 0; i < cases() && !HasFailure(); ++i) {
     const double k = std::ldexp(1.0, i % 50);
     checked += answers_contained(generate(query(), Scalar::float64, 11, std::uint64_t(i)), k, std::uint64_t(i));
   }
-  EXPECT_GT(checked, cases_per_query / 2);
+  EXPECT_GT(checked, cases() / 2);
 }
 
 TEST_P(Enclosures, OfStoredCasesContainTheExactAnswers) {
@@ -92,7 +91,7 @@ TEST_P(Enclosures, OfStoredCasesContainTheExactAnswers) {
 }
 
 TEST_P(Enclosures, ContainTheExactAnswersOfEveryFamily) {
-  const int cases = cases_per_family();
+  const int cases = cases_per_family() / cost_of(query()) + 1;
   int checked = 0;
   for (const Family family : families) {
     for (int i = 0; i < cases && !HasFailure(); ++i) {
@@ -109,7 +108,7 @@ int excluded_later_at_most(std::string_view query) { return query == "moving_sph
 
 TEST_P(Enclosures, GrowWithTheWidening) {
   int excluded_later = 0;
-  for (int i = 0; i < cases_per_query; ++i) {
+  for (int i = 0; i < cases(); ++i) {
     const Case c = generate(query(), Scalar::float64, 12, std::uint64_t(i));
     const Answer none{};
     Enclosure before = oracle_of(query()).interval(c.values, widening(query(), c.values, c.scalar, 0), none, c.scalar);
@@ -132,12 +131,12 @@ TEST_P(Enclosures, GrowWithTheWidening) {
       }
     }
   }
-  EXPECT_LE(1000 * excluded_later, (cases_per_query + 999) * excluded_later_at_most(query().name));
+  EXPECT_LE(1000 * excluded_later, (cases() + 999) * excluded_later_at_most(query().name));
 }
 
 TEST_P(Enclosures, OfTheInputItselfContainTheExactAnswers) {
   int off = 0, asked = 0;
-  for (int i = 0; i < cases_per_query; ++i) {
+  for (int i = 0; i < cases(); ++i) {
     const Case c = generate(query(), i % 2 ? Scalar::float32 : Scalar::float64, 13, std::uint64_t(i));
     if (has_extreme_mutator(c)) continue;  // a time beyond the largest float is a miss in float alone
     const std::vector<double> still(c.values.size(), 0.0);

@@ -436,6 +436,18 @@ INSTANTIATE_TEST_SUITE_P(
                               w[3] = 0;
                               return right("sphere_capsule_signed_distance", w);
                             }},
+                    Planted{"grown-radius", "sphere_capsule_signed_distance",  // half of the radius of the sphere
+                            [](std::span<const double> v) {
+                              std::vector<double> w(v.begin(), v.end());
+                              w[3] = 0.5 * v[3];
+                              return right("sphere_capsule_signed_distance", w);
+                            }},
+                    Planted{"depth-of-distance", "sphere_box_penetration",  // a depth that is a quarter too large
+                            [](std::span<const double> v) {
+                              Answer a = right("sphere_box_penetration", v);
+                              if (a.yes) a.values[0] *= 1.25;
+                              return a;
+                            }},
                     Planted{"turned-corners", "moving_point_triangle",  // an edge that is left out
                             [](std::span<const double> v) {
                               std::vector<double> w(v.begin(), v.end());

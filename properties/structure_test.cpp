@@ -55,6 +55,7 @@ constexpr Room rooms[] = {
     {"corpus/search", 9},
     {"reports/findings", 10},
     {"reports/engine", 11},
+    {"reports/picture", 11},
     {"reports/triage/causes", 12},
     {"reports/triage/geometry", 12},
     {"reports/triage/trials", 13},

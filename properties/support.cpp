@@ -152,6 +152,18 @@ int cases_per_family() {
   return value != nullptr ? std::stoi(value) : 250;
 }
 
+int cost_of(const Query& query) {
+  constexpr std::string_view operation = "_signed_distance";
+  if (!query.name.ends_with(operation)) return 1;
+  const std::string_view shapes = query.name.substr(0, query.name.size() - operation.size());
+  const auto vertices = [](std::string_view shape) {
+    return shape == "box" ? 8 : shape == "triangle" ? 3 : shape == "segment" || shape == "capsule" ? 2 : 1;
+  };
+  const std::size_t between = shapes.find('_');
+  const int of_first = vertices(shapes.substr(0, between)), of_second = vertices(shapes.substr(between + 1));
+  return of_second < 3 ? 1 : of_first * of_second;
+}
+
 std::uint64_t stream(std::uint64_t usual) {
   const char* seed = std::getenv("NEARMISS_SEED");
   return seed == nullptr ? usual : std::strtoull(seed, nullptr, 10) + usual;

@@ -57,6 +57,10 @@ std::string failure_text(const Relation& relation, const Case& question, std::ui
 /// NEARMISS_FAMILY_CASES changes it: the test presets that ask a sample have a small one.
 int cases_per_family();
 
+/// A property that asks the oracle or a derivation is asked one case in so many: the pairs of vertices of a signed
+/// distance with a triangle or a box, since the exact answer searches pairs of their features; 1 for other queries.
+int cost_of(const Query& query);
+
 /// The stream of generated cases for a property whose default seed is `usual`. The environment variable NEARMISS_SEED
 /// changes it.
 std::uint64_t stream(std::uint64_t usual);

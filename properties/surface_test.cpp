@@ -30,7 +30,9 @@ const Values floor_plane{0, 0, 1, 0};
 const Values capsule{0, 0, 0, 4, 0, 0, 1};
 const Values x_axis{0, 0, 0, 4, 0, 0};
 const Values raised{1, -4, 5, 1, 4, 5};  ///< a segment, across the x axis
+const Values raised_triangle{0, 0, 5, 4, 0, 5, 0, 4, 5};
 const Values cube{0, 0, 0, 1, 1, 1, 0, 0, 0, 1};
+const Values raised_cube{0, 0, 5, 1, 1, 1, 0, 0, 0, 1};
 const Values turned{0, 0, 0, 1, 1, 1, 0, 0, 1, 2};  ///< about z, with cosine 3/5 and sine 4/5
 const Values aligned{-1, -1, -1, 1, 1, 1};
 const Values x_and_raised_y{0, 0, 0, 1, 0, 0, 0, 0, 2, 0, 1, 0};
@@ -91,6 +93,53 @@ const Placed placed[] = {
     {"inside", "segment_capsule_signed_distance", raised + capsule, {4, 0, 0, -1, 1, 0, 5, 1, 0, 0}, false},
     {"along", "capsule_capsule_signed_distance", capsule + raised + Values{1}, {3, 0, 0, 1, 2, 0, 1, 1, 0, 4}, true},
     {"inside", "capsule_capsule_signed_distance", capsule + raised + Values{1}, {3, 0, 0, 1, 1, 0, 0, 1, 0, 4}, false},
+    {"other_place",
+     "point_triangle_signed_distance",
+     Values{1, 1, 5} + triangle,
+     {5, 0, 0, -1, 1, 1, 5, 2, 1, 0},
+     true},
+    {"above", "point_triangle_signed_distance", Values{1, 1, 5} + triangle, {5, 0, 0, -1, 1, 1, 5, 1, 1, 1}, false},
+    {"other_place",
+     "sphere_triangle_signed_distance",
+     Values{1, 1, 5, 1} + triangle,
+     {4, 0, 0, -1, 1, 1, 4, 2, 1, 0},
+     true},
+    {"inside",
+     "sphere_triangle_signed_distance",
+     Values{1, 1, 5, 1} + triangle,
+     {4, 0, 0, -1, 1, 1, 5, 1, 1, 0},
+     false},
+    {"other_place", "segment_triangle_signed_distance", raised + triangle, {5, 0, 0, -1, 1, 1, 5, 2, 1, 0}, true},
+    {"beside", "segment_triangle_signed_distance", raised + triangle, {5, 0, 0, -1, 0, 1, 5, 1, 1, 0}, false},
+    {"other_place",
+     "capsule_triangle_signed_distance",
+     raised + Values{1} + triangle,
+     {4, 0, 0, -1, 1, 1, 4, 2, 1, 0},
+     true},
+    {"inside",
+     "capsule_triangle_signed_distance",
+     raised + Values{1} + triangle,
+     {4, 0, 0, -1, 1, 1, 5, 1, 1, 0},
+     false},
+    {"other_place",
+     "triangle_triangle_signed_distance",
+     triangle + Values{1, 1, 5, 1, 1, 9, 2, 1, 9},
+     {5, 0, 0, 1, 1, 1, 0, 1, 1, 7},
+     true},
+    {"outside", "triangle_triangle_signed_distance", triangle + raised_triangle, {5, 0, 0, 1, 5, 5, 0, 1, 1, 5}, false},
+    // 4 above the top of a cube.
+    {"other_place", "point_box_signed_distance", Values{0, 0, 5} + cube, {4, 0, 0, -1, 0, 0, 5, 1, 0, 1}, true},
+    {"inside", "point_box_signed_distance", Values{0, 0, 5} + cube, {4, 0, 0, -1, 0, 0, 5, 0, 0, 0}, false},
+    {"other_place", "sphere_box_signed_distance", Values{0, 0, 5, 1} + cube, {3, 0, 0, -1, 0, 0, 4, 1, 0, 1}, true},
+    {"inside", "sphere_box_signed_distance", Values{0, 0, 5, 1} + cube, {3, 0, 0, -1, 0, 0, 4, 0, 0, 0}, false},
+    {"other_place", "segment_box_signed_distance", raised + cube, {4, 0, 0, -1, 1, 0, 5, 0, 0, 1}, true},
+    {"beside", "segment_box_signed_distance", raised + cube, {4, 0, 0, -1, 0, 0, 5, 1, 0, 1}, false},
+    {"other_place", "capsule_box_signed_distance", raised + Values{1} + cube, {3, 0, 0, -1, 1, 0, 4, 0, 0, 1}, true},
+    {"inside", "capsule_box_signed_distance", raised + Values{1} + cube, {3, 0, 0, -1, 1, 0, 5, 1, 0, 1}, false},
+    {"other_place", "triangle_box_signed_distance", raised_triangle + cube, {4, 0, 0, -1, 0, 0, 5, 1, 0, 0}, true},
+    {"beside", "triangle_box_signed_distance", raised_triangle + cube, {4, 0, 0, -1, -1, 0, 5, 0, 0, 1}, false},
+    {"other_place", "box_box_signed_distance", cube + raised_cube, {3, 0, 0, 1, 0, 0, 1, 1, 0, 5}, true},
+    {"inside", "box_box_signed_distance", cube + raised_cube, {3, 0, 0, 1, 0, 0, 0, 0, 0, 4}, false},
     // Down from height 2 at speed 1: at time 2.
     {"elsewhere", "moving_point_plane", Values{1, 1, 2, 0, 0, -1} + floor_plane, {2, 3, 1, 0, 0, 0, 1}, true},
     {"above", "moving_point_plane", Values{1, 1, 2, 0, 0, -1} + floor_plane, {2, 1, 1, four_ulps, 0, 0, 1}, false},

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -22,10 +23,12 @@ using derived::Choice;
 using derived::Reference;
 using Numbers = std::vector<double>;
 
-/// Answers per query. CI runs the default; a long night runs more.
-int answers_per_query() {
+/// How many answers. CI runs the default; a long night runs more.
+int answers_about(const Query& query) {
   const char* value = std::getenv("NEARMISS_WATCH_ANSWERS");
-  return value != nullptr ? std::stoi(value) : 50'000;
+  const int usual = value != nullptr ? std::stoi(value) : 50'000;
+  constexpr int least = 400;
+  return std::max(least, usual / cost_of(query));
 }
 
 double rounded_to(Scalar s, double x) { return s == Scalar::float32 ? double(float(x)) : x; }
@@ -133,7 +136,7 @@ std::string false_word(const Finding& f, double k) {
 
 TEST_P(Watch, NothingIsProvedAgainstWhatIsRight) {
   constexpr int answers_to_a_case = 8;
-  const int wanted = answers_per_query();
+  const int wanted = answers_about(query());
   int asked = 0, by_k[rungs] = {}, yes = 0;
   for (std::uint64_t index = 0; asked < wanted; ++index) {
     ASSERT_LT(index, std::uint64_t(wanted)) << "hardly any case has an answer in range";
@@ -192,7 +195,7 @@ Answer pushed(const Query& query, Scalar scalar, Answer a, std::mt19937_64& rand
 }
 
 TEST_P(Watch, APushByAnUlpIsToldAsNoMore) {
-  const int wanted = answers_per_query() / 8;
+  const int wanted = answers_about(query()) / 8;
   for (std::uint64_t index = 0, asked = 0; asked < std::uint64_t(wanted); ++index) {
     ASSERT_LT(index, 8u * std::uint64_t(wanted)) << "hardly any case has an answer in range";
     const Case c = draw(index);
@@ -234,7 +237,7 @@ TEST_P(Watch, WhatIsWrongIsTold) {
   // in 10^11 cases.
   constexpr std::size_t draws = 40;
   constexpr double least = 16, told_at_least = 7;  // an ulp of the pushed number may be two of the exact one
-  const int wanted = answers_per_query() / 8;
+  const int wanted = answers_about(query()) / 8;
   int asked = 0, by_part[32] = {};
   const std::vector<Layout::Part>& parts = query().layout.parts;
   for (std::uint64_t index = 0; asked < wanted; ++index) {

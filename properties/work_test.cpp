@@ -80,16 +80,21 @@ void record(const Work& largest) {
   testing::Test::RecordProperty("bytes", std::to_string(largest.bytes));
 }
 
-/// Four times the cost of the costliest case (two boxes' penetration: 27,000 allocations, 2.2 MB).
-constexpr Work most_of_the_oracle{100'000, 8'000'000};
+bool is_distance_of_box(const Query& q) { return q.name.ends_with("_box_signed_distance"); }
+
+/// Four times the cost of the costliest case (two boxes' penetration: 27,000 allocations, 2.2 MB; the distance of two
+/// boxes whose numbers differ by 10^500, so that intervals leave 200 directions for exact numbers: 138,000 allocations,
+/// 46 MB).
+constexpr Work most_of_the_oracle{100'000, 8'000'000}, most_for_distances_of_boxes{550'000, 184'000'000};
 
 class WorkOfTheOracle : public testing::TestWithParam<NamedQuery> {};
 
 TEST_P(WorkOfTheOracle, IsBoundedWhateverTheNumbers) {
   const Query& query = *GetParam().query;
+  const Work& most = is_distance_of_box(query) ? most_for_distances_of_boxes : most_of_the_oracle;
   Work largest;
   for (const Scalar scalar : scalars) {
-    largest = larger(largest, largest_work(query, scalar, 60, most_of_the_oracle,
+    largest = larger(largest, largest_work(query, scalar, 60, most,
                                            [](const Case& c) { EXPECT_FALSE(truth_of(c).alternatives.empty()); }));
   }
   record(largest);
@@ -100,15 +105,21 @@ INSTANTIATE_FOR_EVERY_QUERY(Every, WorkOfTheOracle, testing::ValuesIn(every_quer
                             testing::PrintToStringParamName());
 
 /// Four times the cost of the costliest of 10^6 cases (a sphere past a rectangle: 11,000 allocations; the penetration
-/// of two boxes: 1.1 MB).
-constexpr Work most_of_the_certified{45'000, 4'500'000};
+/// of two boxes: 1.1 MB), and of the costliest signed distance of two triangles (28,000 allocations, 5.8 MB) and of a
+/// box (two boxes of doubles: 73,000 allocations, 27 MB).
+constexpr Work most_of_the_certified{45'000, 4'500'000}, most_for_two_triangles{115'000, 24'000'000},
+    most_of_certified_distances{295'000, 110'000'000};
 
 class WorkOfTheCertified : public testing::TestWithParam<Pairing> {};
 
 TEST_P(WorkOfTheCertified, IsBoundedWhateverTheNumbers) {
   const auto [query, subject] = GetParam();
   const Offering& offering = subject->offering(query->name);
-  const Work largest = largest_work(*query, subject->scalar, 200, most_of_the_certified, [&](const Case& c) {
+  const bool of_box = is_distance_of_box(*query), of_triangles = query->name == "triangle_triangle_signed_distance";
+  const Work& most = of_box         ? most_of_certified_distances
+                     : of_triangles ? most_for_two_triangles
+                                    : most_of_the_certified;
+  const Work largest = largest_work(*query, subject->scalar, of_box ? 50 : 200, most, [&](const Case& c) {
     EXPECT_EQ(offering.answer(c.values).status, Answer::Status::answered);
   });
   record(largest);

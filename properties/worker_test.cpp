@@ -210,6 +210,26 @@ TEST(Worker, StopsABatchThatBreaksFromItsStart) {
   EXPECT_EQ(worker.receive(2).size(), 4u);
 }
 
+/// The first case of the batch behind a batch that ends early has its own answer.
+void expect_no_blame_for_the_batch_before(Misdeed misdeed, double case_timeout, std::size_t most_broken) {
+  Worker worker({.case_timeout = case_timeout, .bytes = std::size_t{256} << 20});
+  worker.send(offering(), std::vector<double>(128, double(misdeed)), 2);
+  ASSERT_LT(worker.receive(most_broken).size(), 64u);
+  // A case that was asked in vain has ended by now.
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  worker.send(offering(), std::vector<double>{none, 7}, 2);
+  const std::span<const Answer> answers = worker.receive();
+  ASSERT_EQ(answers.size(), 1u);
+  EXPECT_EQ(answers[0].status, Answer::Status::answered) << answers[0].reason();
+  EXPECT_EQ(answers[0].values[0], 7);
+}
+
+TEST(Worker, BlamesNoCaseForABatchThatBrokeFromItsStart) { expect_no_blame_for_the_batch_before(aborts, 0.5, 4); }
+
+TEST(Worker, BlamesNoCaseForABatchOfWhichManyWereLate) {
+  expect_no_blame_for_the_batch_before(hangs, 0.02, Worker::capacity);
+}
+
 /// Uses a tenth of a second of processor time.
 Answer work(std::span<const double>) {
   const auto worked = [] {

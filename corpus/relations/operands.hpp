@@ -30,6 +30,12 @@ inline std::size_t time_of(const Query& query) {
   return time == nullptr ? query.outputs.size() : time->begin;
 }
 
+/// The output that is a signed distance; the number of outputs without one.
+inline std::size_t signed_distance_of(const Query& query) {
+  const bool has_points = index_of(query.outputs, "point1.x") < query.outputs.size();
+  return has_points ? index_of(query.outputs, "distance") : query.outputs.size();
+}
+
 inline Answer without(Answer a, std::size_t output) {
   a.given &= ~(std::uint64_t{1} << output);
   return a;

@@ -153,6 +153,25 @@ std::optional<FollowUps> sign_of_distance(const Case& c, std::uint64_t) {
   });
 }
 
+/// A depth of overlap is the distance of the same two shapes below zero. Where the depth says that the shapes are
+/// apart, the distance is not below zero.
+std::optional<FollowUps> depth_of_distance(const Case& c, std::uint64_t) {
+  const Layout::Part* depth = c.query->layout.at(Role::depth);
+  if (c.query->kind != Kind::depth || depth == nullptr || c.operands().size() != 2) return std::nullopt;
+  const Query* const grid =
+      find_query(fmt::format("{}_{}_signed_distance", name_of(c.operands()[0].shape), name_of(c.operands()[1].shape)));
+  if (grid == nullptr) return std::nullopt;
+  const std::size_t ours = depth->begin, theirs = signed_distance_of(*grid);
+  Case other = recast(c, Link{.kind = Link::Kind::same_decision, .to = grid->id});
+  return ordered({std::move(other)}, [=, scalar = c.scalar](const Answer& own, std::span<const Answer> others) {
+    if (!own.gives(ours) || !others[0].gives(theirs)) return Agreement::same;
+    const double deep = own.values[ours], distance = others[0].values[theirs];
+    if (!std::isfinite(deep) || !std::isfinite(distance)) return Agreement::same;  // beyond the scalar's range
+    const bool alike = own.yes ? std::abs(deep + distance) <= slack(scalar, deep, distance) : !(distance < 0);
+    return alike ? Agreement::same : Agreement::numbers_differ;
+  });
+}
+
 /// If a motion hits, it passes through.
 std::optional<FollowUps> hits_pass(const Case& c, std::uint64_t) {
   const Link* link = link_of(c, Link::Kind::within_any_time);

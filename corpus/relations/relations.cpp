@@ -31,6 +31,7 @@ constexpr Relation all_relations[] = {
      metamorphic::later_start},
     {"split-motion", "a motion in two parts: it passes where one of them does", false, metamorphic::split_motion},
     {"grown-size", "a larger solid: hit no later, no shallower, never missed instead", false, metamorphic::grown_size},
+    {"grown-radius", "a larger radius: the distance smaller by as much", false, metamorphic::grown_radius},
     {"contained-ball", "a ball inside of a box or capsule: not hit before it, nor without it", false,
      metamorphic::contained_ball},
     {"longer-limit", "a longer limit: never fewer passes", false, metamorphic::longer_limit},
@@ -44,6 +45,7 @@ constexpr Relation all_relations[] = {
      metamorphic::same_decision},
     {"sign-of-distance", "shapes overlap where their distance is below 0, and are apart where it is above", false,
      metamorphic::sign_of_distance},
+    {"depth-of-distance", "the depth of an overlap is the distance below 0", false, metamorphic::depth_of_distance},
     {"hits-pass", "what hits at some time passes within unlimited time", false, metamorphic::hits_pass},
     {"other-side", "a point that hits one side of a shape does not hit the other", false, metamorphic::other_side},
 };

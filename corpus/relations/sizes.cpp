@@ -62,6 +62,30 @@ std::optional<FollowUps> grown_size(const Case& c, std::uint64_t seed) {
   });
 }
 
+/// With a larger radius of a sphere or a capsule, the distance is smaller by as much.
+std::optional<FollowUps> grown_radius(const Case& c, std::uint64_t seed) {
+  const std::size_t distance = signed_distance_of(*c.query);
+  std::vector<std::size_t> radii;
+  for (const Operand& o : c.operands()) {
+    if (o.radius) radii.push_back(*o.radius);
+  }
+  if (distance == c.query->outputs.size() || radii.empty()) return std::nullopt;
+  Random random(seed);
+  const std::size_t at = random.pick(radii);
+  Case other = c;
+  const double r = c.values[at], more = r == 0 ? random.power_of_two(-8, 2) : r * random.power_of_two(-8, 2);
+  other.values[at] = rounded_to(c.scalar, r + more);
+  if (!(other.values[at] > r) || !valid(other)) return std::nullopt;
+  const double grown = other.values[at] - r;
+  return ordered({std::move(other)}, [=, scalar = c.scalar](const Answer& own, std::span<const Answer> others) {
+    if (!own.gives(distance) || !others[0].gives(distance)) return Agreement::same;
+    const double before = own.values[distance], after = others[0].values[distance];
+    if (!std::isfinite(before) || !std::isfinite(after)) return Agreement::same;  // beyond the scalar's range
+    return std::abs(before - grown - after) <= slack(scalar, before, after) ? Agreement::same
+                                                                            : Agreement::numbers_differ;
+  });
+}
+
 /// A motion that misses a box or a capsule misses a ball inside it, and hits the ball no earlier.
 std::optional<FollowUps> contained_ball(const Case& c, std::uint64_t) {
   const Link* link = link_of(c, Link::Kind::contained_ball);

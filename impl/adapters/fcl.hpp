@@ -5,6 +5,7 @@
 #include <fcl/narrowphase/continuous_collision.h>
 #include <fcl/narrowphase/detail/gjk_solver_indep.h>
 #include <fcl/narrowphase/detail/gjk_solver_libccd.h>
+#include <fcl/narrowphase/detail/primitive_shape_algorithm/triangle_distance.h>
 #include <fcl/narrowphase/distance.h>
 
 #include <cmath>
@@ -89,6 +90,11 @@ bool meets_triangle(const Solver& solver, const FclBody<S>& body, const fcl::Vec
   return solver.shapeTriangleIntersect(body.geometry, body.pose, corners[0], corners[1], corners[2], nullptr, nullptr,
                                        nullptr);
 }
+
+/// One of FCL's GJK solvers.
+template <fcl::GJKSolverType solver>
+using FclSolver = std::conditional_t<solver == fcl::GST_LIBCCD, fcl::detail::GJKSolver_libccd<double>,
+                                     fcl::detail::GJKSolver_indep<double>>;
 
 template <class S>
 concept FclKnows = requires(const S& s) { FclShapes::shape(s); };
@@ -205,9 +211,6 @@ struct Fcl : FclShapes {
   }
 
  private:
-  using Solver = std::conditional_t<static_solver == fcl::GST_LIBCCD, fcl::detail::GJKSolver_libccd<double>,
-                                    fcl::detail::GJKSolver_indep<double>>;
-
   /// With `result`, also requests contacts.
   template <class A, class B>
   static bool meet(const A& a, const B& b, fcl::CollisionResultd* result) {
@@ -218,7 +221,7 @@ struct Fcl : FclShapes {
   }
   template <class S>
   static bool meets(const S& s, const collide::Triangle<double>& t) {
-    return meets_triangle(Solver(), FclBody(s), {vector(t.v0), vector(t.v1), vector(t.v2)});
+    return meets_triangle(FclSolver<static_solver>(), FclBody(s), {vector(t.v0), vector(t.v1), vector(t.v2)});
   }
 
   /// The depth and normal of the deepest contact. FCL's contact position is a different point than the query asks for.
@@ -269,7 +272,10 @@ struct FclDistance : FclShapes {
   }
   template <class Q>
   static std::string equivalence() {
-    return AsksSignedDistance<Q> ? "" : "minus FCL's signed distance";
+    if constexpr (!AsksSignedDistance<Q>) return "minus FCL's signed distance";
+    if constexpr (!asks_of_triangle<Q>) return "";
+    return is_triangle<First<Q>> ? "triDistance, of triangles that are apart"
+                                 : "shapeTriangleDistance, of shapes that are apart";
   }
   template <class Q>
   static std::string left_out() {
@@ -309,6 +315,30 @@ struct FclDistance : FclShapes {
     typename Q::Answer d;
     d.distance = FclPair(a, b).distance(request);
     return only(d, {"distance"});
+  }
+  template <AsksSignedDistance Q>
+    requires((FclKnows<First<Q>> || is_triangle<First<Q>>) && is_triangle<Second<Q>>)
+  static Reply<typename Q::Answer> answer(const Q& q) {
+    const auto& [a, b] = shapes_of(q);
+    typename Q::Answer d;
+    d.distance = distance_of_triangle(a, {vector(b.v0), vector(b.v1), vector(b.v2)});
+    if (!(d.distance > 0)) return CannotAnswer{"FCL tells no depth of a triangle"};
+    return only(d, {"distance"});
+  }
+
+ private:
+  using Corners = fcl::Vector3d[3];
+  static double distance_of_triangle(const collide::Triangle<double>& t, const Corners& corners) {
+    const Corners own{vector(t.v0), vector(t.v1), vector(t.v2)};
+    fcl::Vector3d on_own, on_other;
+    return fcl::detail::TriangleDistanced::triDistance(own, corners, on_own, on_other);
+  }
+  template <class S>
+  static double distance_of_triangle(const S& s, const Corners& corners) {
+    const FclBody<S> body(s);
+    double distance = 0;
+    FclSolver<solver>().shapeTriangleDistance(body.geometry, body.pose, corners[0], corners[1], corners[2], &distance);
+    return distance;
   }
 };
 

@@ -110,10 +110,14 @@ export function timeToPlane(point, velocity, { normal, offset }, radius = 0) {
   return 2 ** Math.ceil(1 + Math.log2((distance || approach) / approach));
 }
 
+/** A contact at that time, with other members of the answer; a miss where the time is beyond the largest float. */
+export const impactAt = (time, more) => Math.fround(time) < Infinity && { time, ...more };
+
 /** The ball around a shape of the catalogue: [center, radius]. */
 export const around = {
   sphere: ({ center, radius }) => [center, radius],
   box: ({ center, half }) => [center, length(half)],
+  triangle: ({ v0, v1, v2 }) => [v0, Math.max(length(minus(v1, v0)), length(minus(v2, v0)))],
   capsule: ({ p0, p1, radius }) => [scaled(plus(p0, p1), 0.5), length(minus(p1, p0)) / 2 + radius],
 };
 

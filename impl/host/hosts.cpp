@@ -25,6 +25,7 @@
 #include "impl/host/shared_layout.hpp"
 #include "impl/subject/printable.hpp"
 #include "impl/subject/provenance.hpp"
+#include "impl/subject/standard.hpp"
 
 namespace nearmiss {
 
@@ -114,6 +115,10 @@ collide::Contract contract_in(const Json* j, const std::string& query) {
     refuse("its contract of {} promises errors of at most {}, {} and {}: none may be below 0", query, c.backward,
            c.forward, c.unit);
   }
+  const bool has_domain = c.lowest != collide::Contract().lowest || c.highest != collide::Contract().highest;
+  if (has_domain && promises_nothing(c))
+    refuse("its contract of {} has a domain, from 2^{} to 2^{}, and promises nothing there", query, c.lowest,
+           c.highest);
   if (c.lowest > c.highest) refuse("its contract of {} has lowest {} above highest {}", query, c.lowest, c.highest);
   return c;
 }
@@ -343,7 +348,12 @@ std::string add_hosted(const std::string& where, HostProgram program, SameName r
   try {
     hello = Worker(worker_limits(), std::make_shared<const HostProgram>(program)).hello();
   } catch (const HostFailed& e) {
-    throw BadSubject(fmt::format("{}: {}{}", where, e.what(), plugin.empty() ? advice_for(program.arguments) : ""));
+    const std::string_view said_nothing =
+        plugin.empty() && e.why == HostFailed::done
+            ? ". It never said hello: with nearmiss.py or nearmiss.mjs, call their function answer"
+            : "";
+    const std::string advice = plugin.empty() ? advice_for(program.arguments) : "";
+    throw BadSubject(fmt::format("{}: {}{}{}", where, e.what(), said_nothing, advice));
   }
   Subject s = subject_from_hello(where, hello, std::move(program));
   const std::string name = rule == SameName::numbered ? free_name(s.name) : s.name;

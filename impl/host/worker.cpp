@@ -309,9 +309,11 @@ std::string Worker::first_line() {
         timeout.restart();
         continue;
       }
-      throw HostFailed(child_->process->exit_text() + error_in(*child_->process));
+      const bool is_done = child_->process->exit_code() == 0;
+      throw HostFailed(child_->process->exit_text() + error_in(*child_->process),
+                       is_done ? HostFailed::done : HostFailed::ended);
     }
-    if (const auto late = timeout.expired(*child_->process, limits_)) {
+    if (const auto late = timeout.expired(*child_->process, limits_.of_start())) {
       throw HostFailed(std::string("no hello").append(*late, std::string_view("no answer").size()), HostFailed::late);
     }
   }
@@ -731,7 +733,9 @@ bool Worker::broke_from_the_start(std::size_t most) const {
 
 std::span<const Answer> Worker::receive(std::size_t most_broken) {
   const FloatingPointScope standard;
-  while (got_ < count_ && late_ < most_late && !broke_from_the_start(most_broken)) {
+  // No request is under way when this function returns: its end would be counted at a case of the next batch.
+  const auto is_over = [&] { return got_ == count_ || late_ >= most_late || broke_from_the_start(most_broken); };
+  while (!is_over()) {
     if (cannot_start_) {
       if (!keeps_waiting() || !take_failed_start()) break;
     } else {
@@ -748,7 +752,7 @@ std::span<const Answer> Worker::receive(std::size_t most_broken) {
       take(std::move(event));
     }
     settle(got_);
-    if (got_ < count_) request(got_, end_of_next_request());
+    if (!is_over()) request(got_, end_of_next_request());
   }
   settle(count_);
   return {answers_.data(), got_};

@@ -1,6 +1,7 @@
 /// Asks a subject in a process of its own, so that a crash or an endless loop costs one case and not the run.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <functional>
@@ -24,8 +25,14 @@ struct WorkerLimits {
   double case_timeout = 2.0;                 ///< seconds of processor time for one case
   std::size_t bytes = std::size_t{2} << 30;  ///< of memory, beyond the memory at the start of the process
   bool pid_namespace = true;                 ///< see Confinement
-  /// Seconds of wall time for one case, and for the hello, without the time in which other processes had the processor.
+  /// Seconds of wall time for one case, without the time in which other processes had the processor.
   double wall() const { return 5 * case_timeout; }
+  /// The limits of a hello: a process may take longer to start than to answer.
+  WorkerLimits of_start() const {
+    WorkerLimits start = *this;
+    start.case_timeout = std::max(case_timeout, 1.0);
+    return start;
+  }
 };
 
 /// The default limits, from the command line.
@@ -34,7 +41,7 @@ void set_worker_limits(const WorkerLimits& limits);
 
 /// Reports why a host sent no hello, or another hello than at its first start.
 struct HostFailed : std::runtime_error {
-  enum Why { ended, late, another_hello };
+  enum Why { ended, done, late, another_hello };  ///< done: it left with exit code 0
   explicit HostFailed(const std::string& text, Why reason = ended) : std::runtime_error(text), why(reason) {}
   Why why;
 };

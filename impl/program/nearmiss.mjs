@@ -21,7 +21,8 @@
 //     new Cannot("why")                      no answer to this case, never counted as a miss; it may be thrown too
 //
 // A function that throws anything else, such as the trap of a library in WebAssembly, ends the program with the error:
-// that case counts as broken, with the line of the error, and Nearmiss starts the program again for the cases behind it.
+// that case counts as broken, with the file, the line, the query and the message of the error, and Nearmiss starts the
+// program again for the cases behind it.
 import fs from "node:fs";
 
 const PROTOCOL = 3;
@@ -52,14 +53,27 @@ export function answer({ name, version, scalar, queries, batches = "binary", not
   for (let batch = next(); batch !== null; batch = next()) {
     const written = [];
     try {
-      for (const encoded of batch) written.push(encoded);
+      for (const encoded of batch.answers) written.push(encoded);
     } catch (error) {
       pipes.write(Buffer.concat(written));
-      console.error(error instanceof Error ? error : `threw ${JSON.stringify(error) ?? String(error)}`);
+      if (error instanceof Error) console.error(error);
+      console.error(inOneLine(error, batch.query));
       process.exit(1);
     }
     pipes.write(Buffer.concat(written));
   }
+}
+
+/** The error with the line that threw it, outside of this file, and the query: Nearmiss reports this line. */
+function inOneLine(error, query) {
+  if (!(error instanceof Error)) return `${query.name}: threw ${JSON.stringify(error) ?? String(error)}`;
+  const frames = String(error.stack).split("\n").filter((line) => /^ +at /.test(line));
+  const own = frames.findIndex((frame) => frame.includes(import.meta.url));
+  const [, file, line] = frames.slice(0, Math.max(own, 0)).map((frame) => /([^/\\(\s]+):(\d+):\d+\)?$/.exec(frame)).find((found) => found && !found.input.includes("node:")) ?? [];
+  const place = file ? `${file}, line ${line}, ` : "";
+  const message = error.message.split(/\s+/).join(" ");
+  const told = error instanceof TypeError && query.missing !== "" ? `${query.missing} (${message})` : message;  // the end of a long line is cut
+  return `${error.name}: ${place}${query.name}: ${told}`;
 }
 
 /** Files 3 and 4, the latter with the hello. Nothing else happens while the program waits for cases. */
@@ -104,7 +118,7 @@ function openPipes(name, hello) {
   };
 }
 
-/** The encoded answers to the next batch, made one by one; null where there is none. */
+/** The query of the next batch and the encoded answers, made one by one; null where there is none. */
 function binaryBatch(pipes, asked) {
   const head = pipes.read(16);
   if (head === null) return null;
@@ -112,7 +126,7 @@ function binaryBatch(pipes, asked) {
   const lengths = words(pipes.read(4 * count));
   const bytes = pipes.read(8 * numbers);
   const values = new Float64Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
-  return binaryAnswers(asked[offer], first, lengths, values);
+  return { query: asked[offer], answers: binaryAnswers(asked[offer], first, lengths, values) };
 }
 const words = (bytes) => new Uint32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
 
@@ -139,8 +153,8 @@ function* binaryAnswers(query, first, lengths, values) {
 function jsonBatch(pipes, asked) {
   const line = pipes.readLine();
   if (line === null) return null;
-  const { query, first, cases } = JSON.parse(line);
-  return jsonAnswers(asked.find(({ name }) => name === query), first, cases);
+  const { query: name, first, cases } = JSON.parse(line), query = asked.find((one) => one.name === name);
+  return { query, answers: jsonAnswers(query, first, cases) };
 }
 
 function* jsonAnswers(query, first, cases) {
@@ -157,12 +171,14 @@ const jsonNumber = (x) => (Number.isFinite(x) ? x : Number.isNaN(x) ? "nan" : x 
 class Query {
   constructor({ query, decides, inputs, outputs }, ask) {
     this.name = query, this.decides = decides, this.ask = ask;
-    this.read = reader(treeOf(inputs));
+    this.missing = "";  // what its function last asked that is no input, for messages
+    this.read = reader(treeOf(inputs), this.name, (text) => { this.missing = text; });
     this.outputs = treeOf(outputs), this.count = outputs.length;
   }
   /** { yes, given, numbers }: `given` has the bits of the numbers that the answer has; or a Cannot. */
   answer(values) {
     let said;
+    this.missing = "";
     try {
       said = this.ask(this.read({ values, at: 0 }));
     } catch (why) {
@@ -172,15 +188,15 @@ class Query {
     if (said instanceof Cannot) return said;
     const numbers = Array(this.count).fill(0);
     if (said === true || said === false || said === null) {
-      if (!this.decides) throw new TypeError(`${this.name}: its function returns an object of ${[...this.outputs.keys()].join(", ")}, and returned ${said}`);
+      if (!this.decides) throw new TypeError(`its function returns an object of ${[...this.outputs.keys()].join(", ")}, and returned ${said}`);
       return { yes: said === true, given: 0n, numbers };
     }
     if (typeof said !== "object" || said instanceof Promise) {
       const what = said instanceof Promise ? "a promise" : String(said);
-      throw new TypeError(`${this.name}: its function returns true, false, null, an object or a Cannot, and returned ${what}`);
+      throw new TypeError(`its function returns true, false, null, an object or a Cannot, and returned ${what}`);
     }
     const { yes = true, ...members } = said;
-    return { yes, given: fill(this.name, this.outputs, members, numbers), numbers };
+    return { yes, given: fill("answer", this.outputs, members, numbers), numbers };
   }
 }
 
@@ -206,20 +222,30 @@ function treeOf(names) {
   return root;
 }
 
-/** A function that takes the numbers of `tree` from { values, at }, in their order. */
-function reader(tree) {
+/** What inputs inherit: it has nothing but what every object has, and tells `miss` of any other name that is read. */
+function without(where, names, miss) {
+  const get = (of, name) => {
+    if (typeof name === "string" && !(name in of)) miss(`'${name}' is no input of ${where}: it has ${names.join(", ")}`);
+    return Reflect.get(of, name);
+  };
+  return new Proxy(Object.create(Object.prototype), { get });
+}
+
+/** A function that takes the numbers of `tree` from { values, at }, in their order. `where` and `miss`: see without(). */
+function reader(tree, where, miss) {
   if (tree instanceof List) {
-    const entry = reader(tree.entry);
+    const entry = reader(tree.entry, where, miss);
     return (from) => Array.from({ length: from.values[from.at++] }, () => entry(from));
   }
   if (!(tree instanceof Map)) return (from) => from.values[from.at++];
   const names = [...tree.keys()].join();
-  const parts = [...tree].map(([name, part]) => [name, reader(part)]);
+  const parts = [...tree].map(([name, part]) => [name, reader(part, `${where}.${name}`, miss)]);
   if (names === "x,y,z" || names === "x,y,z,w") return (from) => parts.map(([, read]) => read(from));
+  const inherited = without(where, [...tree.keys()], miss);
   return (from) => {
     const object = {};
     for (const [name, read] of parts) object[name] = read(from);
-    return object;
+    return { __proto__: inherited, ...object };  // an assignment would ask the proxy for a setter, which takes long
   };
 }
 

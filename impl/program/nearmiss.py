@@ -21,8 +21,8 @@ of its entries. It returns
     {"yes": False, "depth": -0.5}         no, with members; where the query has a yes or no
     Cannot("why")                         no answer to this case, never counted as a miss; it may be raised too
 
-A function that raises anything else ends the program with its traceback: that case counts as broken, with the line of
-the exception, and Nearmiss starts the program again for the cases behind it.
+A function that raises anything else ends the program with its traceback: that case counts as broken, with the file, the
+line, the query and the message of the exception, and Nearmiss starts the program again for the cases behind it.
 """
 
 import json
@@ -74,32 +74,40 @@ def answer(*, name, scalar, queries, version=None, batches="binary", not_offered
             return
         asked = [_Query(names, table[names["query"]]["answer"]) for names in json.loads(line)["names"]]
         exchange = _binary_batches if batches == "binary" else _json_batches
-        for batch in exchange(cases, asked):
-            _answer_batch(batch, answers)
+        for query, batch in exchange(cases, asked):
+            _answer_batch(query, batch, answers)
 
 
-def _answer_batch(batch, answers):
+def _answer_batch(query, batch, answers):
     """Writes the answers to a batch; where a function fails, those to the cases before, and ends the program."""
     written = []
     try:
         for encoded in batch:
             written.append(encoded)
-    except Exception:  # noqa: BLE001 - of the library under test
+    except Exception as error:  # noqa: BLE001 - of the library under test
         answers.write(b"".join(written))
         answers.flush()
         traceback.print_exc()
+        print(_in_one_line(error, query), file=sys.stderr)
         sys.exit(1)
     answers.write(b"".join(written))
     answers.flush()
 
 
+def _in_one_line(error, query):
+    """The exception with the line that raised it, outside of this file, and the query: Nearmiss reports this line."""
+    places = [f"{os.path.basename(frame.filename)}, line {frame.lineno}, " for frame in traceback.extract_tb(error.__traceback__)
+              if frame.filename != __file__]
+    return f"{type(error).__name__}: {places[-1] if places else ''}{query.name}: {' '.join(str(error).split())}"
+
+
 def _binary_batches(cases, asked):
-    """The batches that arrive, each as an iterator over its encoded answers."""
+    """The batches that arrive, each as its query and an iterator over its encoded answers."""
     while head := cases.read(16):
         offer, count, first, numbers = struct.unpack("=4I", head)
         lengths = struct.unpack(f"={count}I", cases.read(4 * count))
         values = struct.unpack(f"={numbers}d", cases.read(8 * numbers))
-        yield _binary_answers(asked[offer], first, lengths, values)
+        yield asked[offer], _binary_answers(asked[offer], first, lengths, values)
 
 
 def _binary_answers(query, first, lengths, values):
@@ -119,7 +127,8 @@ def _json_batches(cases, asked):
     by_name = {query.name: query for query in asked}
     for line in cases:
         batch = json.loads(line)
-        yield _json_answers(by_name[batch["query"]], batch["first"], batch["cases"])
+        query = by_name[batch["query"]]
+        yield query, _json_answers(query, batch["first"], batch["cases"])
 
 
 def _json_answers(query, first, cases):
@@ -144,7 +153,7 @@ class _Query:
 
     def __init__(self, names, function):
         self.name, self.decides, self.function = names["query"], names["decides"], function
-        self.read = _reader(_tree(names["inputs"]))
+        self.read = _reader(_tree(names["inputs"]), self.name)
         self.outputs, self.count = _tree(names["outputs"]), len(names["outputs"])
         self.packed = struct.Struct(f"=BBHIQ{self.count}d")
 
@@ -159,12 +168,12 @@ class _Query:
         numbers = [0.0] * self.count
         if not isinstance(said, dict):
             if said is not None and said not in (True, False):
-                raise TypeError(f"{self.name}: its function returns True, False, None, a dict or a Cannot, and returned {said!r}")
+                raise TypeError(f"its function returns True, False, None, a dict or a Cannot, and returned {said!r}")
             if not self.decides:
-                raise TypeError(f"{self.name}: its function returns a dict of {', '.join(self.outputs)}, and returned {said!r}")
+                raise TypeError(f"its function returns a dict of {', '.join(self.outputs)}, and returned {said!r}")
             return bool(said), 0, numbers
         members = {k: v for k, v in said.items() if k != "yes"}
-        return bool(said.get("yes", True)), _fill(self.name, self.outputs, members, numbers), numbers
+        return bool(said.get("yes", True)), _fill("answer", self.outputs, members, numbers), numbers
 
 
 # The names of numbers form a tree: a number is its index, a list of inputs a _List, anything else a dict.
@@ -190,19 +199,29 @@ def _tree(names):
     return root
 
 
-def _reader(tree):
-    """A function that takes the numbers of `tree` from an iterator, in their order."""
+class _Inputs(types.SimpleNamespace):
+    """Inputs by their names; `_of` is what has them."""
+
+    _of = ""
+
+    def __getattr__(self, name):
+        raise AttributeError(f"'{name}' is no input of {self._of}: it has {', '.join(vars(self))}")
+
+
+def _reader(tree, where):
+    """A function that takes the numbers of `tree` from an iterator, in their order. Messages call the inputs `where`."""
     if isinstance(tree, _List):
-        entry = _reader(tree.entry)
+        entry = _reader(tree.entry, where)
         return lambda numbers: [entry(numbers) for _ in range(int(next(numbers)))]
     if not isinstance(tree, dict):
         return next
-    parts = [(name, _reader(part)) for name, part in tree.items()]
+    parts = [(name, _reader(part, f"{where}.{name}")) for name, part in tree.items()]
     if list(tree) == _VECTORS[0]:
         return lambda numbers: (next(numbers), next(numbers), next(numbers))
     if list(tree) == _VECTORS[1]:
         return lambda numbers: (next(numbers), next(numbers), next(numbers), next(numbers))
-    return lambda numbers: types.SimpleNamespace(**{name: read(numbers) for name, read in parts})
+    inputs = type("_Inputs", (_Inputs,), {"_of": where})
+    return lambda numbers: inputs(**{name: read(numbers) for name, read in parts})
 
 
 def _fill(where, tree, said, numbers):

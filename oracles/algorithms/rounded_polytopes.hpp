@@ -119,6 +119,26 @@ Core<N> core_of(const collide::Box<N>& box) {
   return core;
 }
 
+/// The points center + x[0] reach[0] + x[1] reach[1] + x[2] reach[2] with each x in [-1, 1]. The vertices are in the
+/// order of a box's.
+inline Core<Interval> parallelepiped(const Vector<Interval>& center, const std::array<Vector<Interval>, 3>& reach) {
+  Core<Interval> core;
+  core.center = center;
+  core.reach.assign(reach.begin(), reach.end());
+  core.directions = core.reach;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    Vector<Interval> v = center;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool is_low = (corner >> k & 1) == 0;
+      v = is_low ? minus(v, reach[k]) : plus(v, reach[k]);
+      if (is_low) core.edges.push_back({corner, reach[k]});
+    }
+    core.vertices.push_back(v);
+  }
+  for (std::size_t k = 0; k < 3; ++k) core.normals.push_back(cross(reach[(k + 1) % 3], reach[(k + 2) % 3]));
+  return core;
+}
+
 /// A place near the first vertex, without width: where the cores are relative to it, coordinates far from the origin
 /// lose no digits, and the place is the same for every input that intervals enclose.
 inline Vector<Interval> place_near(const Core<Interval>& core) {
@@ -143,24 +163,25 @@ struct TwoEdges {
 
 /// Calls f(direction, edges) for every direction that may be that of the shortest way between the cores, until it
 /// returns true: those of the facets of their Minkowski difference, then, unless the facets suffice, the others.
-/// `edges`: the direction is across an edge of each, whose directions these are; otherwise empty.
-template <class N, class F>
-bool any_direction(const Core<N>& a, const Core<N>& b, bool facets_suffice, F&& f) {
-  for (const Vector<N>& normal : a.normals) {
-    if (f(normal, {})) return true;
-  }
-  for (const Vector<N>& normal : b.normals) {
-    if (f(normal, {})) return true;
+/// `edges`: the direction is across an edge of each, whose directions these are; otherwise empty. A direction is
+/// computed only where wanted() returns true, which is called once for each, in the same order for every N.
+template <class N, class F, class Wanted>
+bool any_direction(const Core<N>& a, const Core<N>& b, bool facets_suffice, F&& f, Wanted&& wanted) {
+  for (const Core<N>* core : {&a, &b}) {
+    for (const Vector<N>& normal : core->normals) {
+      if (wanted() && f(normal, {})) return true;
+    }
   }
   for (const Vector<N>& d : a.directions) {
     for (const Vector<N>& e : b.directions) {
-      if (f(cross(d, e), TwoEdges<N>{&d, &e})) return true;
+      if (wanted() && f(cross(d, e), TwoEdges<N>{&d, &e})) return true;
     }
   }
   if (facets_suffice) return false;
   for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
     for (const auto& [from, along] : one->edges) {
       for (const Vector<N>& v : other->vertices) {
+        if (!wanted()) continue;
         const Vector<N> way = minus(v, one->vertices[from]);
         if (f(cross(along, cross(way, along)), {})) return true;
       }
@@ -168,10 +189,14 @@ bool any_direction(const Core<N>& a, const Core<N>& b, bool facets_suffice, F&& 
   }
   for (const Vector<N>& v : a.vertices) {
     for (const Vector<N>& w : b.vertices) {
-      if (f(minus(w, v), {})) return true;
+      if (wanted() && f(minus(w, v), {})) return true;
     }
   }
   return false;
+}
+template <class N, class F>
+bool any_direction(const Core<N>& a, const Core<N>& b, bool facets_suffice, F&& f) {
+  return any_direction(a, b, facets_suffice, std::forward<F>(f), [] { return true; });
 }
 
 /// The ends of a projection on a direction.
@@ -230,37 +255,132 @@ inline bool is_vague(const Interval& x) {
 }
 inline bool is_vague(const Exact&) { return false; }
 
+/// The gap along a direction, per its length, and the same for its opposite: the greater one. nullopt: the intervals
+/// cannot tell.
+inline std::optional<Bounds> greater_gap(const Vector<Interval>& direction, const Interval& length2,
+                                         const Core<Interval>& a, const Core<Interval>& b) {
+  if (is_vague(length2)) return std::nullopt;
+  Bounds greater{-HUGE_VAL, -HUGE_VAL};
+  for (const Interval& gap : gaps(direction, a, b)) {
+    const Bounds by = bounds(Interval(gap / root(length2)));
+    if (!(by.low <= by.high)) return std::nullopt;  // not a number
+    greater = {std::max(greater.low, by.low), std::max(greater.high, by.high)};
+  }
+  return greater;
+}
+
 /// Encloses the signed distance of two cores: the greatest gap over the directions of length 1. Where it is negative, a
 /// direction of a facet has it, if the Minkowski difference has a volume; without a volume it is not negative.
-/// nullopt: a direction is vague, so that the intervals cannot tell. The cores are in units of 1 / unit.
-template <class N>
-std::optional<Bounds> signed_distance(const Core<N>& a, const Core<N>& b, const N& unit = N(1)) {
+/// nullopt: a direction is vague, so that the intervals cannot tell.
+inline std::optional<Bounds> signed_distance(const Core<Interval>& a, const Core<Interval>& b) {
   Bounds s{-HUGE_VAL, surely_spans(a, b) ? -HUGE_VAL : 0.0};
-  N greatest(0), length2(0);  // of exact numbers: gap and direction
-  bool any = false;
-  const bool unknown = any_direction(a, b, false, [&](const Vector<N>& n, TwoEdges<N>) {
-    const N n2 = norm2(n);
+  const bool unknown = any_direction(a, b, false, [&](const Vector<Interval>& n, TwoEdges<Interval>) {
+    const Interval n2 = norm2(n);
     if (surely_zero(n2)) return false;
-    if (is_vague(n2)) return true;
-    for (const N& gap : gaps(n, a, b)) {
-      if constexpr (is_enclosure<N>) {
-        const Bounds by = bounds(N(gap / root(n2)));
-        if (!(by.low <= by.high)) return true;  // not a number
-        s = {std::max(s.low, by.low), std::max(s.high, by.high)};
-      } else {  // |gap| gap / n2 grows with gap / |n|
-        const auto signed_square = [](const N& x) { return may_be_negative(x) ? N(-square(x)) : square(x); };
-        if (any && !may_be_less(N(signed_square(greatest) * n2), N(signed_square(gap) * length2))) continue;
-        greatest = gap, length2 = n2, any = true;
-      }
-    }
+    const std::optional<Bounds> by = greater_gap(n, n2, a, b);
+    if (!by) return true;
+    s = {std::max(s.low, by->low), std::max(s.high, by->high)};
     return false;
   });
   if (unknown) return std::nullopt;
-  if constexpr (!is_enclosure<N>) {
-    if (any) {
-      const Bounds by = bounds(N(N(greatest / N(length2 * unit)) * root(length2)));
-      s = {std::max(s.low, by.low), std::max(s.high, by.high)};
+  return s;
+}
+
+/// Encloses exact vectors divided by a power of two, so that no number is too large for intervals.
+class Enclosing {
+ public:
+  void reach(const Vector<Exact>& v) {
+    for (const Exact& x : v) {
+      if (const std::optional<long> exponent = exponent_of(x))
+        exponent_ = std::max(exponent_.value_or(*exponent), *exponent);
     }
+  }
+  Vector<Interval> operator()(const Vector<Exact>& v) const {
+    Vector<Interval> enclosed;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Bounds x = bounds(v[k], exponent_.value_or(0));
+      enclosed[k] = Interval(x.low, x.high);
+    }
+    return enclosed;
+  }
+
+ private:
+  std::optional<long> exponent_;
+};
+
+/// Encloses two exact cores whose vertices are relative to one of them, in a unit of length that both share. The length
+/// of a direction, and its unit, are its own.
+inline std::array<Core<Interval>, 2> enclosing(const Core<Exact>& a, const Core<Exact>& b) {
+  Enclosing lengths;
+  for (const Core<Exact>* exact : {&a, &b}) {
+    for (const std::vector<Vector<Exact>>* vectors : {&exact->vertices, &exact->reach}) {
+      for (const Vector<Exact>& v : *vectors) lengths.reach(v);
+    }
+  }
+  const auto enclose_all = [](const std::vector<Vector<Exact>>& vectors, auto&& enclose) {
+    std::vector<Vector<Interval>> enclosures;
+    std::transform(vectors.begin(), vectors.end(), std::back_inserter(enclosures), enclose);
+    return enclosures;
+  };
+  const auto direction = [](const Vector<Exact>& v) {
+    Enclosing own;
+    own.reach(v);
+    return own(v);
+  };
+  const auto enclose = [&](const Core<Exact>& exact) {
+    Core<Interval> core;
+    core.vertices = enclose_all(exact.vertices, lengths);
+    core.reach = enclose_all(exact.reach, lengths);
+    if (!exact.reach.empty()) core.center = lengths(exact.center);
+    core.directions = enclose_all(exact.directions, direction);
+    core.normals = enclose_all(exact.normals, direction);
+    for (const auto& [from, along] : exact.edges) core.edges.push_back({from, direction(along)});
+    return core;
+  };
+  return {enclose(a), enclose(b)};
+}
+
+/// Which of the directions of any_direction() may have the greatest gap: intervals leave few for exact arithmetic.
+inline std::vector<bool> directions_of_greatest_gap(const Core<Exact>& exact_a, const Core<Exact>& exact_b) {
+  const Vector<Exact>& place = place_near(exact_a);
+  const auto [a, b] = enclosing(relative_to(place, exact_a), relative_to(place, exact_b));
+  const IntervalScope scope;
+  arithmetic_barrier();
+  std::vector<double> upper;
+  double greatest = -HUGE_VAL;
+  any_direction(a, b, false, [&](const Vector<Interval>& n, TwoEdges<Interval>) {
+    const std::optional<Bounds> by = greater_gap(n, norm2(n), a, b);
+    upper.push_back(by ? by->high : HUGE_VAL);
+    if (by) greatest = std::max(greatest, by->low);
+    return false;
+  });
+  arithmetic_barrier();
+  if (scope.any_invalid()) upper.assign(upper.size(), HUGE_VAL);  // the bounds mean nothing: all may be
+  std::vector<bool> may_be(upper.size());
+  std::transform(upper.begin(), upper.end(), may_be.begin(), [&](double high) { return high >= greatest; });
+  return may_be;
+}
+
+/// The same of exact cores, in units of 1 / unit.
+inline Bounds signed_distance(const Core<Exact>& a, const Core<Exact>& b, const Exact& unit) {
+  const std::vector<bool> may_be = directions_of_greatest_gap(a, b);
+  const auto signed_square = [](const Exact& x) { return may_be_negative(x) ? Exact(-square(x)) : square(x); };
+  Exact greatest(0), length2(0);  // gap and direction
+  bool any = false;
+  const auto compare = [&](const Vector<Exact>& n, TwoEdges<Exact>) {
+    const Exact n2 = norm2(n);
+    if (surely_zero(n2)) return false;
+    for (const Exact& gap : gaps(n, a, b)) {  // |gap| gap / n2 grows with gap / |n|
+      if (any && !may_be_less(Exact(signed_square(greatest) * n2), Exact(signed_square(gap) * length2))) continue;
+      greatest = gap, length2 = n2, any = true;
+    }
+    return false;
+  };
+  any_direction(a, b, false, compare, [&, i = std::size_t(0)]() mutable { return may_be[i++]; });
+  Bounds s{-HUGE_VAL, surely_spans(a, b) ? -HUGE_VAL : 0.0};
+  if (any) {
+    const Bounds by = bounds(Exact(Exact(greatest / Exact(length2 * unit)) * root(length2)));
+    s = {std::max(s.low, by.low), std::max(s.high, by.high)};
   }
   return s;
 }
@@ -275,17 +395,20 @@ inline double movement(const Core<Interval>& core, const Core<Interval>& middle)
   return root(of_bound(furthest2)).sup() + magnitude(core.radius - middle.radius).sup();
 }
 
-/// The inputs without numbers that are below 2^-100 of the largest length, or of the largest component of a rotation:
-/// exact arithmetic on the others is cheap.
+/// The inputs without numbers that are below 2^-100 of the largest length, or of the largest component of their
+/// rotation: exact arithmetic on the others is cheap.
 template <class Q>
 std::vector<double> without_tiny_numbers(std::span<const double> inputs) {
   const std::vector<Role> roles = roles_of(Q{});
-  std::array<double, 2> largest{};
-  const auto of = [&](std::size_t i) -> double& { return largest[roles[i] == Role::rotation ? 1 : 0]; };
-  for (std::size_t i = 0; i < inputs.size(); ++i) of(i) = std::max(of(i), std::abs(inputs[i]));
-  std::vector<double> kept(inputs.begin(), inputs.end());
+  constexpr std::size_t components = 4;
+  std::vector<std::size_t> groups;  // 0: lengths; then the rotations
+  for (std::size_t i = 0, rotations = 0; i < inputs.size(); ++i)
+    groups.push_back(roles[i] == Role::rotation ? 1 + rotations++ / components : 0);
+  std::vector<double> largest(inputs.size(), 0.0), kept(inputs.begin(), inputs.end());
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    largest[groups[i]] = std::max(largest[groups[i]], std::abs(inputs[i]));
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (std::abs(kept[i]) < 0x1p-100 * of(i)) kept[i] = 0;
+    if (std::abs(kept[i]) < 0x1p-100 * largest[groups[i]]) kept[i] = 0;
   }
   return kept;
 }
@@ -316,8 +439,11 @@ Bounds exact_signed_distance(const std::vector<double>& inputs) {
   const FloatingPointScope standard_modes;
   arithmetic_barrier();
   const auto exact = exact_inputs<Q<Exact>>(inputs);
-  const Core<Exact> a = core_of(exact.a), b = core_of(exact.b);
-  last = *signed_distance(times(b.unit, a), times(a.unit, b), Exact(a.unit * b.unit));
+  Core<Exact> a = core_of(exact.a), b = core_of(exact.b);
+  const Exact unit = a.unit * b.unit;
+  const Exact unit_of_a = a.unit;
+  a = times(b.unit, std::move(a)), b = times(unit_of_a, std::move(b));
+  last = signed_distance(a, b, unit);
   arithmetic_barrier();
   last_inputs = inputs;
   return last;

@@ -1,10 +1,12 @@
 /// Truth of the grid's signed distances. The signed distance of two cores is the greatest gap between them over all
 /// directions of length 1, and each right normal has that gap. Where the cores are apart, or meet in a volume, it is
 /// one of the directions of any_direction(). Where they only touch or cross without a volume, each direction that
-/// separates them weakly is right: those of a cone. With a normal n the nearest points c1 and c2 of the cores are any
-/// points of theirs with c2 - c1 = gap n, so c1 lies in the common part of a feature of the first and of the moved one
-/// of the second: a polygon, or less. The radii move the points along n.
+/// separates them weakly is right: those of a cone, or both normals of a face that is common to them. With a normal n
+/// the nearest points c1 and c2 of the cores are any points of theirs with c2 - c1 = gap n, so c1 lies in the common
+/// part of a feature of the first and of the moved one of the second: a polygon, or less. The radii move the points
+/// along n.
 #include "impl/catalogue/queries/grid.hpp"
+#include "oracles/algorithms/near_points.hpp"
 #include "oracles/algorithms/rounded_polytopes.hpp"
 #include "oracles/algorithms/surface.hpp"
 #include "oracles/algorithms/tuples.hpp"
@@ -103,7 +105,13 @@ std::vector<ExactVector> common_part(std::vector<ExactVector> of, const std::vec
   return once;
 }
 
-/// The vertices furthest along the direction.
+/// The corners of a polygon in order. Those of a face of a box are numbered like the corners of a square: by one bit
+/// for each side.
+std::vector<ExactVector> in_order(std::vector<ExactVector> corners) {
+  if (corners.size() == 4) std::swap(corners[2], corners[3]);
+  return corners;
+}
+/// The vertices furthest along the direction, the corners of a polygon in order; of a box, if that is not across it.
 std::vector<ExactVector> furthest(const ExactCore& core, const ExactVector& direction) {
   std::vector<ExactVector> all;
   for (const ExactVector& v : core.vertices) {
@@ -111,7 +119,7 @@ std::vector<ExactVector> furthest(const ExactCore& core, const ExactVector& dire
     if (!all.empty() && may_be_less(dot(direction, all.front()), dot(direction, v))) all.clear();
     all.push_back(v);
   }
-  return all;
+  return in_order(std::move(all));
 }
 
 /// A rational vector near x, and by how much a component of it is off at most.
@@ -170,18 +178,17 @@ void report_along(const ExactCore& a, const ExactCore& b, const ExactVector& dir
           SetDistance{{{point1_at, first.ulps}, {point2_at, second.ulps}}, both.ulps});
 }
 
-/// The cores meet, but no volume is common to them: each normal of a cone is right, with each common point.
+/// The cores meet in these corners, but no volume is common to them: each normal of a cone is right, with each common
+/// point.
 template <class Out>
-void report_touch(const ExactCore& a, const ExactCore& b, Out& out) {
+void report_touch(const ExactCore& a, const ExactCore& b, const std::vector<ExactVector>& corners, Out& out) {
   Normals<Exact> normals = Normals<Exact>::any();
-  for (const ExactVector& v : a.vertices) {
-    for (const ExactVector& w : b.vertices) {
-      const ExactVector way = minus(w, v);
-      if (!surely_zero(norm2(way))) normals.facing.push_back({way, 0, 1});
-    }
-  }
+  const auto add = [&normals](const ExactVector& way) {
+    if (!surely_zero(norm2(way))) normals.facing.push_back({way, 0, 1});
+  };
+  for (const ExactVector& v : a.vertices) add(minus(corners.front(), v));
+  for (const ExactVector& w : b.vertices) add(minus(w, corners.front()));
   const Cone cone = cone_of(normals);
-  const std::vector<ExactVector> corners = common_part(a.vertices, b.vertices);
   const auto answer = [&](const ExactVector& n, const ExactVector& c) {
     return signed_distance_answer(a, b, Exact(0), n, c, c);
   };
@@ -237,7 +244,7 @@ void signed_distance_of(const Q<Exact>& q, Out& out) {
     Exact gap, rank;  ///< the rank grows with gap / |direction|
   };
   std::vector<Separating> best;
-  any_direction(a, b, false, [&](const ExactVector& d, TwoEdges<Exact>) {
+  const auto compare = [&](const ExactVector& d, TwoEdges<Exact>) {
     const Exact length2 = norm2(d);
     if (surely_zero(length2)) return false;
     const std::array<Exact, 2> both = gaps(d, a, b);
@@ -255,10 +262,16 @@ void signed_distance_of(const Q<Exact>& q, Out& out) {
       if (is_new) best.push_back(std::move(s));
     }
     return false;
-  });
-  const bool has_volume = surely_spans(a, b);
-  if (best.empty() || surely_zero(best.front().gap) || (may_be_negative(best.front().gap) && !has_volume))
-    return report_touch(a, b, out);
+  };
+  const std::vector<bool> may_be = directions_of_greatest_gap(a, b);
+  any_direction(a, b, false, compare, [&, i = std::size_t(0)]() mutable { return may_be[i++]; });
+  if (best.empty() || (may_be_negative(best.front().gap) && !surely_spans(a, b)))
+    return report_touch(a, b, common_part(in_order(a.vertices), in_order(b.vertices)), out);
+  if (surely_zero(best.front().gap)) {
+    const ExactVector& n = best.front().direction;
+    const std::vector<ExactVector> common = common_part(furthest(a, n), furthest(b, negated(n)));
+    if (common.size() < 3) return report_touch(a, b, common, out);
+  }
   for (const Separating& s : best) report_along(a, b, s.direction, s.gap, out);
 }
 
@@ -297,12 +310,20 @@ Interval widened_by(const Bounds& s, const IntervalCore& a, const IntervalCore& 
   return {(of_bound(s.low) - reach).inf(), (of_bound(s.high) + reach).sup()};
 }
 
-/// The core of an input in the middle of the others. Not of a box.
+IntervalVector in_the_middle(IntervalVector x) {
+  for (Interval& c : x) c = Interval(CGAL::to_double(c));
+  return x;
+}
+/// A core with vertices near those of an input in the middle of the others. That of a box has edges that are
+/// perpendicular but for rounding.
 IntervalCore in_the_middle(const IntervalCore& core) {
-  std::vector<IntervalVector> vertices = core.vertices;
-  for (IntervalVector& v : vertices) {
-    for (Interval& x : v) x = Interval(CGAL::to_double(x));
+  if (!core.reach.empty()) {
+    std::array<IntervalVector, 3> reach;
+    for (std::size_t k = 0; k < 3; ++k) reach[k] = in_the_middle(core.reach[k]);
+    return parallelepiped(in_the_middle(core.center), reach);
   }
+  std::vector<IntervalVector> vertices;
+  for (const IntervalVector& v : core.vertices) vertices.push_back(in_the_middle(v));
   if (vertices.size() > 1) return flat_core(std::move(vertices));
   IntervalCore middle;
   middle.vertices = std::move(vertices);
@@ -485,6 +506,12 @@ IntervalVector nearest_to(const IntervalVector& to, const IntervalCore& core, In
   return point;
 }
 
+/// Whether the Minkowski difference never has a volume: that of two segments, or of a point and a triangle.
+bool is_difference_flat(const IntervalCore& a, const IntervalCore& b) {
+  const auto dimensions = [](const IntervalCore& core) { return core.vertices.size() - 1; };
+  return dimensions(a) + dimensions(b) <= 2;
+}
+
 /// Encloses the normal by the boxes that the points of the way lie in.
 IntervalVector normal_between(const IntervalVector& from, const IntervalVector& to, const Interval& distance,
                               const IntervalVector& normal) {
@@ -494,12 +521,34 @@ IntervalVector normal_between(const IntervalVector& from, const IntervalVector& 
   return within_both(normal, between);
 }
 
+/// Encloses the right normals of cores at this distance from each other. With points of both at the ends of `way`, each
+/// right normal n has n . way >= distance: it lies in a cone around the way.
+IntervalVector normals_around(const IntervalVector& way, const Interval& distance) {
+  const Interval any(-1, 1), length = root(norm2(way));
+  if (!(distance.inf() > 0 && length.inf() > 0 && length.sup() < HUGE_VAL)) return {any, any, any};
+  const double cosine = std::min(1.0, (of_bound(distance.inf()) / of_bound(length.sup())).inf());
+  const double sine = root(Interval(1) - square(of_bound(cosine))).sup();
+  IntervalVector normal = unit_of(way);
+  for (Interval& x : normal)
+    x = assume_within(Interval(cosine, 1) * x + Interval(-sine, sine) * root(Interval(1) - square(x)), -1.0, 1.0);
+  return normal;
+}
+/// The same for points of the cores near to each other.
+IntervalVector normals_of(const IntervalCore& a, const IntervalCore& b, const Interval& distance) {
+  const Interval any(-1, 1);
+  if (!(distance.inf() > 0)) return {any, any, any};
+  const NearPoints near(a, b);
+  if (!near.weights()) return {any, any, any};
+  const auto& [of_a, of_b] = *near.weights();
+  return normals_around(minus(point_at(spans_of(b), of_b), point_at(spans_of(a), of_a)), distance);
+}
+
 template <template <class> class Q, class Out>
 void signed_distance_of(const Q<Interval>& q, Out& out) {
   IntervalCore a = core_of(q.a), b = core_of(q.b);
   const IntervalVector place = place_near(a);
   a = relative_to(place, std::move(a)), b = relative_to(place, std::move(b));
-  const bool has_no_volume = a.normals.empty() && b.normals.empty();  // of the difference of two segments
+  const bool has_no_volume = is_difference_flat(a, b);
   const double apart = least_distance(a, b);
   const Interval distance = meet(Interval(has_no_volume || apart > 0 ? apart : -HUGE_VAL, HUGE_VAL),
                                  distance_of_all<Q>(q, a, b, out.middle()));
@@ -509,8 +558,7 @@ void signed_distance_of(const Q<Interval>& q, Out& out) {
                           const IntervalVector& c2) {
     return signed_distance_answer(a, b, s, n, plus(c1, place), plus(c2, place));
   };
-  const Interval any(-1, 1);
-  const IntervalVector any_normal{any, any, any};
+  const IntervalVector any_normal = normals_of(a, b, distance);
   const auto everywhere = [](const IntervalVector&) { return true; };
   const auto report_loosely = [&](const TwoEdges<Interval>& edges) {
     IntervalVector c1 = hull_of(a, everywhere), c2 = hull_of(b, everywhere);
@@ -521,7 +569,7 @@ void signed_distance_of(const Q<Interval>& q, Out& out) {
     const IntervalVector n = normal_between(c1, c2, distance, any_normal);
     out.yes(answer(distance, n, c1, c2), given.from(n, edges));
   };
-  if (distance.inf() <= 0) report_loosely({});  // a cone of normals
+  if (distance.inf() <= 0 && distance.sup() >= 0) report_loosely({});  // a cone of normals
   if (distance.sup() <= 0 && has_no_volume) return;
   any_direction(a, b, false, [&](const IntervalVector& d, const TwoEdges<Interval>& edges) {
     const Interval length = root(norm2(d));
@@ -535,6 +583,7 @@ void signed_distance_of(const Q<Interval>& q, Out& out) {
       Interval s = both[side] / length;
       if (!narrow(s, distance)) continue;
       IntervalVector n = unit_of(side == 0 ? d : negated(d));
+      if (!narrow(n[0], any_normal[0]) || !narrow(n[1], any_normal[1]) || !narrow(n[2], any_normal[2])) continue;
       const auto is_furthest = [&](const IntervalCore& core, double sign) {
         return [&core, &n, sign](const IntervalVector& v) {
           return std::none_of(core.vertices.begin(), core.vertices.end(), [&](const IntervalVector& other) {
@@ -565,6 +614,14 @@ bool may_be_on_surface_of(const Shape& shape, const GivenPlace<N>& place) {
   const Core<N> core = core_of(shape);
   const N distance2 = distance2_of_segment(place, core.vertices.front(), core.vertices.back());
   return may_be_at_radius(place, distance2, core.radius);
+}
+template <class N>
+bool may_be_on_surface_of(const collide::Triangle<N>& triangle, const GivenPlace<N>& place) {
+  return may_be_on_triangle(place, triangle);
+}
+template <class N>
+bool may_be_on_surface_of(const collide::Box<N>& box, const GivenPlace<N>& place) {
+  return may_be_on_box(place, box);
 }
 
 }  // namespace

@@ -41,6 +41,24 @@ Bounds bounds(const Exact& x) {
   return {mpfr_get_d(low.get(), MPFR_RNDD), mpfr_get_d(high.get(), MPFR_RNDU)};
 }
 
+Bounds bounds(const Exact& x, long exponent) {
+  constexpr mpfr_prec_t bits = 256;
+  Wide low(bits), high(bits);
+  enclose(x, low, high);
+  mpfr_mul_2si(low.get(), low.get(), -exponent, MPFR_RNDD);
+  mpfr_mul_2si(high.get(), high.get(), -exponent, MPFR_RNDU);
+  return {mpfr_get_d(low.get(), MPFR_RNDD), mpfr_get_d(high.get(), MPFR_RNDU)};
+}
+
+std::optional<long> exponent_of(const Exact& x) {
+  constexpr mpfr_prec_t bits = 256;
+  Wide low(bits), high(bits);
+  enclose(x, low, high);
+  const mpfr_t& furthest = mpfr_cmpabs(low.get(), high.get()) > 0 ? low.get() : high.get();
+  if (mpfr_zero_p(furthest) != 0) return std::nullopt;
+  return mpfr_get_exp(furthest);
+}
+
 Bounds magnitude_bounds(const Exact& x) {
   const Bounds b = bounds(x);
   Bounds m{b.nearest_to_zero(), b.furthest_from_zero()};

@@ -22,6 +22,10 @@ namespace nearmiss::oracle {
 inline Bounds bounds(const Interval& x) { return {x.inf(), x.sup()}; }
 /// Tight even where the two parts of a + b sqrt(c) nearly cancel.
 Bounds bounds(const Exact& x);
+/// Encloses x / 2^exponent, whatever the magnitude of x.
+Bounds bounds(const Exact& x, long exponent);
+/// |x| is less than 2^exponent, and about that. nullopt: x is zero.
+std::optional<long> exponent_of(const Exact& x);
 
 /// Encloses |x|.
 inline Bounds magnitude_bounds(const Interval& x) {

@@ -54,7 +54,7 @@ insert_before reports/upstream/ask_collide.cpp "std::string operator()(const AAB
     for (const auto& v : p.vertices) vertices += (vertices.empty() ? "" : ", ") + of(v);
     return made("Polyline", fmt::format("{{{}, {{{{{}}}}}}}", p.vertices.count, vertices));
   }'
-sed -i 's/^\( *\)case Shape::point: break;/\1case Shape::polyline:\n&/' "$copy/reports/page/picture_shapes.cpp"
+sed -i 's/^\( *\)case Shape::point: break;/\1case Shape::polyline:\n&/' "$copy/reports/picture/picture_shapes.cpp"
 insert_before oracles/requirements.cpp "case Shape::point:" "    case Shape::polyline:"
 insert_before properties/features.cpp "case Shape::plane:" "      case Shape::polyline:"
 

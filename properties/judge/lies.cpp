@@ -611,13 +611,16 @@ void within_ball(const Vector& center, const Number& radius, std::size_t leaf, L
   const Real reach = radius.at + radius.slack + center.slack;
   out.within(Topic::place, leaf + k, center.at[k] - reach, center.at[k] + reach, bodies::length(center.at) + reach);
 }
-/// Of bodies whose difference has no volume without their radii. With each of its points near to the other, and each
-/// normal, a bound: every right normal n has n . (to - from) at least as large as the distance of the cores.
+/// With each of its points near to the other, and each normal, a bound: every right normal n has n . (to - from) at
+/// least as large as the distance of the cores.
 template <Body (Inputs::*first)(), Body (Inputs::*second)()>
 void signed_distance(Inputs in, Liar& out) {
   const Body a = (in.*first)(), b = (in.*second)();
   const Gap g = gap_of(a, b);
-  const Real slack = a.slack + b.slack, radii = a.radius + b.radius, least = std::max(g.low, -radii);
+  const auto dimensions = [](const Body& body) { return body.is_box() ? 3 : int(body.corners.size()) - 1; };
+  const bool may_have_volume = dimensions(a) + dimensions(b) > 2;
+  const Real slack = a.slack + b.slack, radii = a.radius + b.radius,
+             least = may_have_volume ? g.low : std::max(g.low, -radii);
   constexpr std::size_t distance_leaf = 0, point_leaf = 4;
   out.within(Topic::number, distance_leaf, least - slack, g.high + slack, 0);
   const std::size_t k = out.below(3), which = out.below(2);

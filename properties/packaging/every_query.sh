@@ -23,7 +23,7 @@ for query in "$@"; do
   # The parameters, from the declaration in the header; the first overload is enough.
   parameters=$(sed -n "/^\[\[nodiscard\]\].* $query(/,/noexcept/{p;/noexcept/q}" "$include_folder/collide/$query.hpp" |
     tr '\n' ' ' | sed -E "s/.* $query\((.*)\) noexcept.*/\1/; s/ = [^,)]*//g")
-  [[ -n $parameters ]] || parameters=$(sed -nE "s/^COLLIDE_(OVERLAP[A-Z_]*|SIGNED_DISTANCE)\(([0-9]+, )?$query, ([A-Za-z0-9]+), ([a-z0-9]+), ([A-Za-z0-9]+), ([a-z0-9]+)\)/const \3<T>\& \4, const \5<T>\& \6/p" \
+  [[ -n $parameters ]] || parameters=$(sed -nE "s/^COLLIDE_(OVERLAP[A-Z_]*|SIGNED_DISTANCE[A-Z_]*)\(([0-9]+, )?$query, ([A-Za-z0-9]+), ([a-z0-9]+), ([A-Za-z0-9]+), ([a-z0-9]+)\)/const \3<T>\& \4, const \5<T>\& \6/p" \
     "$include_folder/collide/$query.hpp")
   [[ -n $parameters ]] || fail "the declaration of $query was not found"
   names=$(sed -E 's/([^,]*[ &])([a-z0-9_]+)(,|$)/\2\3/g; s/ +//g' <<<"$parameters")

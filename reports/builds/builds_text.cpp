@@ -89,11 +89,22 @@ std::string case_line(const Case& c) {
 
 std::string name_of(const ComparedBuild& c) { return fmt::format("{}-{}", c.query->name, c.other->name); }
 
+namespace {
+
+/// As the verdict of a replay says it.
+std::string fault_text(const JudgedAnswer& j) {
+  if (j.answer.status != Answer::Status::answered) return "has no answer";
+  return j.finding.is_proved() ? "is wrong" : "has another decision, not proved to differ by more than is allowed";
+}
+
+}  // namespace
+
 std::string right_text(const ComparedBuild& c) {
   const JudgedAnswer &base = c.first->base, &other = c.first->other;
-  if (base.is_right != other.is_right)
-    return fmt::format("{} is right, and {} is wrong", (base.is_right ? c.base : c.other)->name,
-                       (base.is_right ? c.other : c.base)->name);
+  if (base.is_right != other.is_right) {
+    return base.is_right ? fmt::format("{} is right, and {} {}", c.base->name, c.other->name, fault_text(other))
+                         : fmt::format("{} is right, and {} {}", c.other->name, c.base->name, fault_text(base));
+  }
   if (!base.is_right) return "Neither is right";
   const double of_base = base.finding.forward_ulps, of_other = other.finding.forward_ulps;
   if (of_base == of_other) return "Both are right";

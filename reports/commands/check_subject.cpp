@@ -19,8 +19,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json checked_json(const CheckedQuery& c) {
-  Json j{{"query", c.query->name}, {"asked", c.asked}, {"right", c.right},
-         {"wrong", c.wrong},       {"broke", c.broke}, {"without_answer", c.without_answer}};
+  Json j{{"query", c.query->name},  {"asked", c.asked}, {"right", c.right},
+         {"wrong", c.wrong},        {"broke", c.broke}, {"without_answer", c.without_answer},
+         {"not_asked", c.not_asked}};
   if (!c.misreading) return j;
   Json names = Json::array();
   for (const Reading* r : c.misreading->readings) names.push_back(r->name);
@@ -47,7 +48,8 @@ class CheckSubjectCommand : public Command {
          "adapter "
          "before a run: otherwise most findings are about it.",
          "--json prints one object for programs: {\"subjects\": {NAME: [{\"query\", \"asked\", \"right\", \"wrong\", "
-         "\"broke\", \"without_answer\", \"misreading\": {\"readings\": [NAME], \"explained\"}}]}}; \"misreading\" is "
+         "\"broke\", \"without_answer\", \"not_asked\", \"misreading\": {\"readings\": [NAME], \"explained\"}}]}}; "
+         "\"misreading\" is "
          "left "
          "out where there is none."},
         {{"0", "Every answer is right, as far as can be proved."},

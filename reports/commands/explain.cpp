@@ -33,7 +33,7 @@ class ExplainCommand : public FindingsCommand {
          "examined.",
          "A cause is named only where its test passed: rounding, absolute tolerance, relative tolerance, "
          "iteration limit, unsupported, overflow, underflow, convention, logic. Otherwise the finding is unexplained. "
-         "docs/explanation/causes.md has the tests.",
+         "docs/triage.md says what each cause means.",
          "The report is written to FOLDER/QUERY/SUBJECT-FAULT-ID.json, with the cause and the evidence under "
          "\"cause\". The result is the same each time, unless --seconds ended the search."},
         judging_exit_status(),

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "corpus/storage/fuzz_target.hpp"
 #include "corpus/storage/store.hpp"
 #include "impl/host/engines.hpp"
 #include "reports/commands/command.hpp"
@@ -32,20 +33,33 @@ std::string_view offer_of(const Subject& s, const Query& query) {
   return s.started ? name_of(s.offering(query.name).offer) : not_built;
 }
 
-/// All subjects at hand, then the engines.
-std::vector<const Subject*> all_at_hand() {
-  std::vector<const Subject*> all;
-  for (const std::vector<Subject>* some : {&subjects_at_hand(), &engines_at_hand()}) {
-    for (const Subject& s : *some) all.push_back(&s);
+/// What of the list is shown.
+struct Listed {
+  std::vector<const Query*> queries;
+  std::vector<const Subject*> subjects, engines;
+
+  /// All subjects, then the engines.
+  std::vector<const Subject*> all() const {
+    std::vector<const Subject*> both = subjects;
+    both.insert(both.end(), engines.begin(), engines.end());
+    return both;
   }
-  return all;
+};
+
+/// Those that are named; all where none is.
+std::vector<const Subject*> named_among(const std::vector<Subject>& some, const std::vector<std::string>& names) {
+  std::vector<const Subject*> found;
+  for (const Subject& s : some) {
+    if (names.empty() || std::ranges::find(names, s.name) != names.end()) found.push_back(&s);
+  }
+  return found;
 }
 
 /// The offer of each of these subjects, or of each referee among them, for the query.
-Json offers(const Query& query, const std::vector<Subject>& all, bool referees_only = false) {
+Json offers(const Query& query, const std::vector<const Subject*>& all, bool referees_only = false) {
   Json j = Json::object();
-  for (const Subject& s : all) {
-    if (!referees_only || s.referee) j[s.name] = offer_of(s, query);
+  for (const Subject* s : all) {
+    if (!referees_only || s->referee) j[s->name] = offer_of(*s, query);
   }
   return j;
 }
@@ -59,18 +73,18 @@ std::vector<std::string_view> names_of(Preconditions required) {
 }
 
 /// The preconditions of each subject that has some: {NAME: [PRECONDITION]}.
-Json requirements(const Query& query) {
+Json requirements(const Query& query, const Listed& listed) {
   Json j = Json::object();
-  for (const Subject* s : all_at_hand()) {
+  for (const Subject* s : listed.all()) {
     if (const Preconditions r = s->offering(query.name).required; !r.empty()) j[s->name] = names_of(r);
   }
   return j;
 }
 
 /// What each subject declares: {NAME: [{"convention", "sentence"}]}.
-Json declarations(const Query& query) {
+Json declarations(const Query& query, const Listed& listed) {
   Json j = Json::object();
-  for (const Subject* s : all_at_hand()) {
+  for (const Subject* s : listed.all()) {
     if (const auto declared = s->declared_for(query.name); !declared.empty())
       j[s->name] = declarations_to_json(declared);
   }
@@ -81,9 +95,9 @@ Json bound_json(double bound) { return std::isfinite(bound) ? Json(bound) : Json
 
 /// The contract of each subject that promises something: {NAME: {"backward", "forward", "unit", "exact_decisions"}}, in
 /// the units of collide/contract.hpp; null: no bound.
-Json contracts(const Query& query) {
+Json contracts(const Query& query, const Listed& listed) {
   Json j = Json::object();
-  for (const Subject* s : all_at_hand()) {
+  for (const Subject* s : listed.all()) {
     const collide::Contract& c = s->offering(query.name).contract;
     if (s->offering(query.name).offer == Offer::not_offered || promises_nothing(c)) continue;
     j[s->name] = {{"backward", bound_json(c.backward)},
@@ -94,18 +108,19 @@ Json contracts(const Query& query) {
   return j;
 }
 
-Json list_json() {
+Json list_json(const Listed& listed) {
   Json queries = Json::array();
-  for (const Query& q : catalogue()) {
+  for (const Query* each : listed.queries) {
+    const Query& q = *each;
     queries.push_back({{"query", q.name},
                        {"kind", name_of(q.kind)},
-                       {"subjects", offers(q, subjects_at_hand())},
-                       {"referees", offers(q, subjects_at_hand(), true)},
-                       {"engines", offers(q, engines_at_hand())},
-                       {"requires", requirements(q)},
-                       {"declared", declarations(q)},
-                       {"contracts", contracts(q)},
-                       {"fuzz_target", fmt::format("fuzz_{}", q.name)},
+                       {"subjects", offers(q, listed.subjects)},
+                       {"referees", offers(q, listed.subjects, true)},
+                       {"engines", offers(q, listed.engines)},
+                       {"requires", requirements(q, listed)},
+                       {"declared", declarations(q, listed)},
+                       {"contracts", contracts(q, listed)},
+                       {"fuzz_target", fmt::format("fuzz_{}", fuzz_target_of(q).name)},
                        {"seeds", count_seeds(q)},
                        {"properties", properties_of(q)}});
   }
@@ -121,12 +136,12 @@ std::string letter(std::size_t i) {
   return i < 26 ? std::string(1, char('A' + i)) : std::string(1, char('A' + i / 26 - 1)) + char('A' + i % 26);
 }
 
-std::string subjects_table() {
+std::string subjects_table(const Listed& listed) {
   std::vector<std::vector<std::string>> rows{{"", "SUBJECT", "VERSION", "SCALAR", ""}};
-  const std::vector<const Subject*> all = all_at_hand();
+  const std::vector<const Subject*> all = listed.all();
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Subject& s = *all[i];
-    const char* note = i >= subjects_at_hand().size() ? "an engine" : s.referee ? "also a referee" : "";
+    const char* note = i >= listed.subjects.size() ? "an engine" : s.referee ? "also a referee" : "";
     if (s.started) {
       rows.push_back({letter(i), s.name, s.version, std::string(name_of(s.scalar)), note});
     } else {
@@ -145,12 +160,13 @@ std::string missing_engines_line() {
   return missing.empty() ? "" : fmt::format("'./nearmiss engines NAME' installs {}\n", fmt::join(missing, ", "));
 }
 
-std::string queries_table() {
+std::string queries_table(const Listed& listed) {
   std::vector<std::vector<std::string>> rows{{"QUERY", "KIND"}};
-  const std::vector<const Subject*> all = all_at_hand();
+  const std::vector<const Subject*> all = listed.all();
   for (std::size_t i = 0; i < all.size(); ++i) rows[0].push_back(letter(i));
   rows[0].insert(rows[0].end(), {"SEEDS", "PROPERTIES"});
-  for (const Query& q : catalogue()) {
+  for (const Query* each : listed.queries) {
+    const Query& q = *each;
     std::vector<std::string> row{std::string(q.name), std::string(name_of(q.kind))};
     for (const Subject* s : all) row.emplace_back(1, mark_of(*s, q));
     row.push_back(std::to_string(count_seeds(q)));
@@ -180,11 +196,11 @@ std::optional<PairOperation> pair_operation_of(const Query& q) {
 }
 
 /// The letters of the subjects that answer one of the queries, neighbours as a range: "A-H K".
-std::string letters_of(const std::vector<const Query*>& queries) {
+std::string letters_of(const std::vector<const Query*>& queries, const Listed& listed) {
   std::vector<bool> answers;
-  for (const Subject& s : subjects_at_hand()) {
+  for (const Subject* s : listed.subjects) {
     answers.push_back(std::any_of(queries.begin(), queries.end(), [&](const Query* q) {
-      return s.started && s.offering(q->name).offer != Offer::not_offered;
+      return s->started && s->offering(q->name).offer != Offer::not_offered;
     }));
   }
   std::string text;
@@ -200,23 +216,25 @@ std::string letters_of(const std::vector<const Query*>& queries) {
 }
 
 /// For each operation a table of the pairs of shapes: a row for the first, a column for the second.
-std::string pairs_tables() {
+std::string pairs_tables(const Listed& listed) {
   std::string text;
   for (const auto& [operation, words] : pair_operations) {
     std::map<std::pair<Shape, Shape>, std::vector<const Query*>> cells;
     std::set<Shape> first, second;
-    for (const Query& q : catalogue()) {
+    for (const Query* each : listed.queries) {
+      const Query& q = *each;
       if (pair_operation_of(q) != operation) continue;
       cells[{q.operands[0].shape, q.operands[1].shape}].push_back(&q);
       first.insert(q.operands[0].shape), second.insert(q.operands[1].shape);
     }
+    if (cells.empty()) continue;
     std::vector<std::vector<std::string>> rows{{""}};
     for (const Shape column : second) rows[0].emplace_back(traits_of(column).words);
     for (const Shape row : first) {
       rows.push_back({std::string(traits_of(row).words)});
       for (const Shape column : second) {
         const auto cell = cells.find({row, column});
-        rows.back().push_back(cell == cells.end() ? "" : letters_of(cell->second));
+        rows.back().push_back(cell == cells.end() ? "" : letters_of(cell->second, listed));
       }
     }
     text += fmt::format("{}{}:\n{}", text.empty() ? "" : "\n", words, table_text(rows));
@@ -230,10 +248,11 @@ std::string declared_cell(const Subject& s, const Query& query) {
 }
 
 /// One line for each pair of query and subject, with the reason or the equivalence.
-std::string reasons_table() {
+std::string reasons_table(const Listed& listed) {
   std::vector<std::vector<std::string>> rows{{"QUERY", "SUBJECT", "OFFER", "REQUIRES", "DECLARES", "HOW OR WHY NOT"}};
-  for (const Query& q : catalogue()) {
-    for (const Subject* s : all_at_hand()) {
+  for (const Query* each : listed.queries) {
+    const Query& q = *each;
+    for (const Subject* s : listed.all()) {
       const Offering& o = s->offering(q.name);
       rows.push_back({std::string(q.name), s->name, std::string(offer_of(*s, q)),
                       o.required.empty() ? "-" : fmt::format("{}", fmt::join(names_of(o.required), ", ")),
@@ -284,13 +303,15 @@ class ListCommand : public Command {
              "\"fuzz_target\", \"seeds\", \"properties\"}]}."},
             {{"0", "Done."}, {"2", "The corpus cannot be read, or the arguments are wrong."}},
             {{"nearmiss list", "The table."},
+             {"nearmiss list --subject fcl --query sphere_box_overlap --why", "Of some subjects and queries."},
              {"nearmiss list --pairs", "Who answers what about which two shapes."},
              {"nearmiss list --why | grep fcl", "How FCL is asked, and what it cannot be asked."},
              {"nearmiss list --members moving_point_sphere", "The inputs and outputs of a plugin's function."},
              {"nearmiss list --json", "For programs."}}};
   }
   void declare(CLI::App& app) override {
-    declare_foreign_subjects(app);
+    selection_.declare_subjects(app);
+    selection_.declare_queries(app);
     app.add_flag("--json", json_, "Print JSON")->disable_flag_override();
     app.add_flag("--why", why_, "Print how each subject answers each query, or why it does not")
         ->excludes("--json")
@@ -318,21 +339,26 @@ class ListCommand : public Command {
         ->excludes("--names");
   }
   int run(const CLI::App&) override {
+    const std::vector<std::string>& chosen = selection_.subject;
+    const Listed listed{selection_.queries(), named_among(subjects_at_hand(), chosen),
+                        named_among(engines_at_hand(), chosen)};
     if (json_) {
-      say("{}", pretty_json(list_json()));
+      say("{}", pretty_json(list_json(listed)));
     } else if (why_) {
-      say("{}", reasons_table());
+      say("{}", reasons_table(listed));
     } else if (pairs_) {
-      say("{}\n{}", subjects_table(), pairs_tables());
+      say("{}\n{}", subjects_table(listed), pairs_tables(listed));
     } else if (!members_.empty()) {
       say("{}", members_table(*find_query(members_)));
-    } else if (!names_.empty()) {
-      for (const std::string& n : names_ == "queries" ? query_names() : subject_names()) say("{}\n", n);
+    } else if (names_ == "queries") {
+      for (const Query* q : listed.queries) say("{}\n", q->name);
+    } else if (names_ == "subjects") {
+      for (const Subject* s : listed.subjects) say("{}\n", s->name);
     } else {
-      const bool all =
-          std::all_of(subjects_at_hand().begin(), subjects_at_hand().end(), [](const Subject& s) { return s.started; });
+      const bool all = std::ranges::all_of(listed.subjects, &Subject::started);
       say("{}\n{}\n+ answers   ~ by equivalence   . not offered{}   (nearmiss list --why tells how and why)\n{}",
-          subjects_table(), queries_table(), all ? "" : "   ? not built yet", missing_engines_line());
+          subjects_table(listed), queries_table(listed), all ? "" : "   ? not built yet",
+          chosen.empty() ? missing_engines_line() : "");
     }
     return 0;
   }
@@ -340,6 +366,7 @@ class ListCommand : public Command {
  private:
   bool json_ = false, why_ = false, pairs_ = false;
   std::string names_, members_;
+  Selection selection_;
 };
 
 }  // namespace

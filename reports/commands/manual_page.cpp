@@ -88,7 +88,9 @@ std::string overview_page(const CLI::App& root) {
               {"Nearmiss asks a collision-detection library many questions, knows the exact answers, and reports "
                "where the library is wrong, by how much, and with what proof. A query is one operation with a "
                "fixed meaning. A subject is a library that answers queries. A contract is the subject's promise, and "
-               "a violation is a proved breach of it."});
+               "a violation is a proved breach of it.",
+               "The launcher ./nearmiss of the source tree also has the commands check, build and engines; "
+               "'./nearmiss help check' prints their manuals."});
   text += heading("COMMANDS") + table_text(commands, indent);
   text += heading("OPTIONS") + options_text(root);
   text += heading("EXIT STATUS") + definitions(judging_exit_status());

@@ -141,7 +141,7 @@ class NightlyCommand : public Command {
     const std::vector<const Query*> queries = profile ? profile->queries() : all.queries();
     foreign_subjects();  // refuses a bad name now rather than in the last third
     const bool is_whole = profile || building.has("hosts");
-    FuzzTargets found = fuzz_targets(queries);
+    BuiltTargets found = fuzz_targets(queries);
     Run run({typed_command_line(), out_.empty() ? new_run_folder(seed) : fs::path(out_), queries,
              profile    ? profile->subjects()
              : is_whole ? all.subjects()
@@ -176,7 +176,7 @@ class NightlyCommand : public Command {
     bool failed = (!profile && ask_properties(run, between(begin, end, 1 - later), building)) || related > 0;
     if (later > 0 && targets_.empty()) {
       wait_for("targets", "the fuzz targets are being built", building, run);
-      found = building.has("targets") ? fuzz_targets(queries) : FuzzTargets{{}, found.missing, found.where};
+      found = building.has("targets") ? fuzz_targets(queries) : BuiltTargets{{}, found.missing, found.where};
     }
     if (profile) put_seeds_of(*scene, found, run);
     const NightFuzzing fuzzing = fuzz_all(run, found, profile_.file, jobs(), end);
@@ -203,7 +203,7 @@ class NightlyCommand : public Command {
   }
 
  private:
-  FuzzTargets fuzz_targets(std::span<const Query* const> queries) const {
+  BuiltTargets fuzz_targets(std::span<const Query* const> queries) const {
     return find_fuzz_targets(targets_.empty() ? std::nullopt : std::optional(fs::path(targets_)), queries);
   }
   /// Adds the subjects that the launcher has built meanwhile to the run, and returns them. Throws BadInput where it
@@ -237,7 +237,7 @@ class NightlyCommand : public Command {
     return fmt::format("{} that stored cases do not expect: \"stored\" in index.json\n",
                        plural_text(unexpected, "finding"));
   }
-  static std::string targets_text(const FuzzTargets& found, const Building& building) {
+  static std::string targets_text(const BuiltTargets& found, const Building& building) {
     if (building.may_have("targets")) {
       return "What is not built yet is built beside this night, and joins it: build/night.log has the progress.";
     }

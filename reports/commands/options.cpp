@@ -9,6 +9,7 @@
 #include <random>
 
 #include "corpus/files/errors.hpp"
+#include "corpus/files/near_words.hpp"
 #include "corpus/storage/codec.hpp"
 #include "impl/host/engines.hpp"
 #include "impl/host/hosts.hpp"
@@ -64,11 +65,29 @@ CLI::Validator known_query() {
   };
   return CLI::Validator(check, "");
 }
+
+namespace {
+
+/// The error for a name that is no subject's: what was added for this command may call itself otherwise.
+std::string unknown_subject_text(const std::string& name) {
+  std::vector<std::string> added;
+  for (const Subject& s : subjects_at_hand()) {
+    if (!s.command.empty() || !s.plugin.empty()) added.push_back(fmt::format("'{}'", s.name));
+  }
+  if (added.empty() || !close_matches(name, subject_names()).empty())
+    return unknown_text("subject", name, subject_names());
+  return fmt::format("unknown subject '{}'; {}", one_line(name, 60),
+                     added.size() == 1 ? "what was added calls itself " + added.front()
+                                       : "those that were added call themselves " + list_text(added));
+}
+
+}  // namespace
+
 CLI::Validator known_subject() {
   const auto check = [](const std::string& name) -> std::string {
     if (is_subject(name)) return "";
     const std::string missing = how_to_install(name);
-    return missing.empty() ? unknown_text("subject", name, subject_names()) : missing;
+    return missing.empty() ? unknown_subject_text(name) : missing;
   };
   return CLI::Validator(check, "");
 }
@@ -116,7 +135,7 @@ void declare_by_text(const std::string& text) {
   const std::string sentence = second < text.size() ? trimmed(text.substr(second + 1)) : "";
   const std::size_t space = std::min(of.find(' '), of.size());
   const std::string subject = of.substr(0, space), query = trimmed(of.substr(space));
-  if (!is_subject(subject)) refuse(unknown_text("subject", subject, subject_names()));
+  if (!is_subject(subject)) refuse(unknown_subject_text(subject));
   if (!query.empty() && find_query(query) == nullptr) refuse(unknown_query_text(query));
   const auto convention = convention_named(name);
   if (!convention)
@@ -159,8 +178,9 @@ void declare_foreign_subjects(CLI::App& app, std::vector<std::string>* loaded) {
          },
          fmt::format(
              "The time limit of a subject for one case: S seconds of processor time, and {:g} times as many seconds "
-             "of wall time. Default: {:g}",
-             usual.wall() / usual.case_timeout, usual.case_timeout))
+             "of wall time. A subject has at least {:g} s to start. Default: {:g}",
+             usual.wall() / usual.case_timeout, WorkerLimits{.case_timeout = 0}.of_start().case_timeout,
+             usual.case_timeout))
       ->type_name("S")
       ->check(number_from(least, most));
   const auto loading = [loaded](std::string (*load)(const std::string&, SameName)) {

@@ -87,24 +87,13 @@ class ReplayCommand : public Command {
     say_on_stderr(fmt::format("nearmiss: {}: it is about '{}', which is no subject here{}\n", one_line(file, 300),
                               one_line(name, 60), missing.empty() ? how_to_ask_again(report, file) : ": " + missing));
   }
-  /// The options of the report's command that add its subject, for this file. Anybody may have written the report: no
-  /// other command is shown, and the reader is told what this one starts.
   static std::string how_to_ask_again(const nlohmann::json& report, const std::string& file) {
-    const bool has_command = report.contains("replay") && report["replay"].is_string();
-    if (!has_command) return "";
-    constexpr std::string_view none = "; its command is not one that asks a subject again";
-    const auto words = words_of_shell(report["replay"].get<std::string>());
-    if (!words || words->size() < 3 || (*words)[0] != "nearmiss" || (*words)[1] != "replay") return std::string(none);
-    std::string options, started;
-    for (std::size_t i = 2; i + 1 < words->size(); i += 2) {
-      const auto &option = (*words)[i], &value = (*words)[i + 1];
-      if ((option != "--plugin" && option != "--command") || i + 2 >= words->size()) return std::string(none);
-      options += fmt::format("{} {} ", option, shell_quoted(value));
-      started += (started.empty() ? "" : " and ") + shell_quoted(value);
-    }
-    if (options.empty()) return "";
-    return fmt::format("; this asks it again, and starts {}: nearmiss replay {}{}", one_line(started, 300),
-                       one_line(options, 600), one_line(shell_quoted(file), 300));
+    if (!report.contains("replay")) return "";
+    const std::optional<AddedByReport> added = added_by(report);
+    if (!added) return "; its command is not one that asks a subject again";
+    if (added->options.empty()) return "";
+    return fmt::format("; this asks it again, and starts {}: nearmiss replay {} {}", one_line(added->started, 300),
+                       one_line(added->options, 600), one_line(shell_quoted(file), 300));
   }
   std::vector<const Subject*> subjects() const {
     if (!selection_.subject.empty()) return selection_.subjects();

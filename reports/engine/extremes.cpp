@@ -92,6 +92,8 @@ class Extremes::Place : public Sink {
         **std::find_if(maps_.begin(), maps_.end(), [&](const ExtremesMap* o) { return o->subject == &e.subject; });
     m.time_outs += e.answer.late();
     m.time_outs_in_row += e.answer.late();
+    m.answered += e.answer.status == Answer::Status::answered;
+    m.broke += e.answer.status == Answer::Status::broke;
     count(m.cells[cell_], e.finding);
   }
 
@@ -105,6 +107,16 @@ namespace {
 Standard nothing_promised(const Subject& subject, const Query& query) {
   const Standard standard = subject.standard_for(query.name);
   return {no_promise, true, standard.required, standard.declared};
+}
+
+/// The cell whose values are nearest to 0: no offset from the origin, and a scale of 2^0. All values of a scene are
+/// ordinary.
+std::size_t ordinary_cell(const MapPlane& plane) {
+  const auto nearest = [](const MapAxis& axis) {
+    return std::size_t(std::ranges::min_element(axis.values, {}, [](double x) { return std::abs(x); }) -
+                       axis.values.begin());
+  };
+  return nearest(plane.y) * plane.x.values.size() + nearest(plane.x);
 }
 
 }  // namespace
@@ -161,6 +173,10 @@ void Extremes::fill(const Query& query, Scalar scalar, std::size_t plane) {
     constexpr std::size_t most = ExtremesMap::most_in_row;
     for (std::size_t at = 0; at < cases.size() && !interrupted(); at += most) {
       ask(asked, cell, std::span(cases).subspan(at, std::min(most, cases.size() - at)));
+      for (ExtremesMap* m : asked) {
+        if (m->answered == 0 && m->broke >= ExtremesMap::most_broken && !m->always_breaks)
+          look_whether_it_always_breaks(*m, cases_of(ordinary_cell(m->plane)));
+      }
     }
     done_ += asked.size() * settings_.cases;
     progress_.show(done_, total_, std::nullopt, 0);
@@ -179,6 +195,16 @@ void Extremes::ask(const std::vector<ExtremesMap*>& maps, std::size_t cell, std:
   asked_ += asked.size() * cases.size();
   place_->at(maps, cell);
   campaign_.examine(asked, cases);
+}
+
+void Extremes::look_whether_it_always_breaks(ExtremesMap& m, std::span<const Case> ordinary) {
+  m.broke = 0;  // where it does not, it is looked again after as many breakages
+  if (ordinary.empty()) return;
+  const auto breaks = [&](const Case& c) {
+    return campaign_.dispatcher().workers().ask(*m.subject, c).status == Answer::Status::broke;
+  };
+  m.always_breaks = std::ranges::all_of(
+      ordinary.first(std::min<std::size_t>(ordinary.size(), Dispatcher::least_broken_of_query)), breaks);
 }
 
 nlohmann::ordered_json Extremes::to_json() const {
@@ -253,9 +279,9 @@ std::string Extremes::summary() const {
   for (const ExtremesMap& m : maps_) {
     for (const ExtremesCell& c : m.cells) gave_up += c.gave_up;
   }
-  return fmt::format("{}{}, {} asked, {} given up after time-outs; {}{}{}", interrupted() ? "interrupted: " : "",
-                     plural_text(maps, "map"), plural_text(asked_, "case"), count_text(gave_up),
-                     path_text(settings_.folder / "extremes.json"),
+  return fmt::format("{}{}, {} asked, {} given up after time-outs or breakages; {}{}{}",
+                     interrupted() ? "interrupted: " : "", plural_text(maps, "map"), plural_text(asked_, "case"),
+                     count_text(gave_up), path_text(settings_.folder / "extremes.json"),
                      drawn ? " and extremes.html" : "; no page, for this build found no node-d3",
                      campaign_.internal_errors().text());
 }

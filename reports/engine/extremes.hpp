@@ -39,8 +39,9 @@ struct ExtremesCell {
   std::uint64_t broke = 0;       ///< exception, abort, crash, limit
   std::uint64_t no_answer = 0;   ///< the subject reported that it has no answer
   std::uint64_t not_asked = 0;   ///< the case does not meet the subject's preconditions
-  std::uint64_t gave_up = 0;     ///< not asked after too many time-outs in the row or in the map
-  double forward_ulps = 0;       ///< lower bound for the worst number of an answer with the right decision
+  std::uint64_t gave_up =
+      0;                    ///< not asked after too many time-outs in the row or in the map, or where it always breaks
+  double forward_ulps = 0;  ///< lower bound for the worst number of an answer with the right decision
   double backward_epsilon = -1;  ///< largest proved bound; negative where nothing is proved
 };
 
@@ -51,10 +52,15 @@ struct ExtremesMap {
   std::size_t number_of_plane;      ///< among those of the query
   std::vector<ExtremesCell> cells;  ///< row by row: y selects the row, x the column
   std::uint64_t time_outs = 0, time_outs_in_row = 0;
+  std::uint64_t answered = 0, broke = 0;  ///< cases so far
+  bool always_breaks = false;             ///< in the first most_broken cases, and in the most ordinary cell
 
   /// After this many time-outs the subject is given up: in the row, and in the whole map.
   static constexpr std::uint64_t most_in_row = 3, most = 12;
-  bool given_up() const { return time_outs_in_row >= most_in_row || time_outs >= most; }
+  /// After this many breakages without an answer the most ordinary cell is asked: a map begins in a corner of extreme
+  /// numbers, where a subject may break that answers elsewhere.
+  static constexpr std::uint64_t most_broken = Dispatcher::most_broken_in_row;
+  bool given_up() const { return always_breaks || time_outs_in_row >= most_in_row || time_outs >= most; }
 };
 
 class Extremes {
@@ -81,6 +87,8 @@ class Extremes {
  private:
   void fill(const Query& query, Scalar scalar, std::size_t plane);
   void ask(const std::vector<ExtremesMap*>& maps, std::size_t cell, std::span<const Case> cases);
+  /// Tells whether the subject breaks in the most ordinary cell, too.
+  void look_whether_it_always_breaks(ExtremesMap& m, std::span<const Case> ordinary);
   ExtremesSettings settings_;
   std::vector<ExtremesMap> maps_;
   Progress progress_;

@@ -31,7 +31,7 @@ double seconds_until(Clock::time_point t) { return std::chrono::duration<double>
 
 /// A target and its turns so far.
 struct Contender {
-  const FuzzTarget* target;
+  const BuiltTarget* target;
   std::optional<FuzzOutcome> sum{};
   double yield = 0;  ///< new inputs per second of the last turn
   Clock::time_point waits_since{};
@@ -72,8 +72,8 @@ struct Turn {
 
 class Turns {
  public:
-  Turns(const std::vector<FuzzTarget>& targets, const FuzzNight& night) : night_(night) {
-    for (const FuzzTarget& t : targets) contenders_.push_back({&t});
+  Turns(const std::vector<BuiltTarget>& targets, const FuzzNight& night) : night_(night) {
+    for (const BuiltTarget& t : targets) contenders_.push_back({&t});
     const double each = seconds_until(night.until) * night.jobs / double(std::max<std::size_t>(1, targets.size()));
     first_round_share_ = each / 2 >= least_half ? 0.5 : 1;
   }
@@ -93,7 +93,7 @@ class Turns {
       if (c.sum && (c.sum->executions > 0 || c.sum->failed)) {
         o.ran.push_back(*c.sum);
       } else {
-        o.no_time.emplace_back(c.target->query->name);
+        o.no_time.emplace_back(c.target->target->name);
       }
     }
     return o;
@@ -105,9 +105,9 @@ class Turns {
     if (left < shortest_turn || night_.cancelled()) return false;
     Contender* next = next_contender();
     if (next == nullptr) return false;
-    if (!next->sum && night_.profile.empty()) put_seeds(*next->target->query, night_.run_folder);
-    night_.activity(fmt::format("fuzzing {}", next->target->query->name));
-    const double turn = std::min(left, next->sum ? later_turn(left) : first_turn(left));
+    if (!next->sum && night_.profile.empty()) put_seeds(*next->target, night_.run_folder);
+    night_.activity(fmt::format("fuzzing {}", next->target->target->name));
+    const double turn = std::min(left, next->sum ? later_turn(left) : first_turn(*next, left));
     running_.push_back({next, std::make_unique<RunningTarget>(
                                   *next->target, FuzzBudget{night_.run_folder, night_.foreign, night_.profile,
                                                             std::max(shortest_turn, turn)})});
@@ -124,12 +124,14 @@ class Turns {
     }
     return best;
   }
-  /// What is left of the first round's share, divided among the targets without a turn.
-  double first_turn(double left) {
-    const auto waiting = std::count_if(contenders_.begin(), contenders_.end(),
-                                       [](const Contender& c) { return !c.sum && !c.is_running; });
+  /// What is left of the first round's share, divided among the queries of the targets without a turn.
+  double first_turn(const Contender& next, double left) {
+    std::size_t waiting = 0;
+    for (const Contender& c : contenders_) {
+      if (!c.sum && !c.is_running) waiting += c.target->queries.size();
+    }
     if (!first_round_end_) first_round_end_ = left * (1 - first_round_share_);
-    return (left - *first_round_end_) * night_.jobs / double(waiting);
+    return (left - *first_round_end_) * night_.jobs * double(next.target->queries.size()) / double(waiting);
   }
   double later_turn(double left) const {
     return std::clamp(left * night_.jobs / double(contenders_.size()), shortest_turn, longest_turn);
@@ -152,9 +154,9 @@ class Turns {
   std::optional<double> first_round_end_;  ///< seconds before the end of the night
 };
 
-// Corpora. Beside corpus/QUERY/: QUERY.merging, an unfinished result; QUERY.control, libFuzzer's record of an
-// unfinished merge; QUERY.merged, a complete result that is not yet in its place; QUERY.old, what it replaces;
-// QUERY.size, the number of inputs after the last merge.
+// Corpora. Beside corpus/TARGET/: TARGET.merging, an unfinished result; TARGET.control, libFuzzer's record of an
+// unfinished merge; TARGET.merged, a complete result that is not yet in its place; TARGET.old, what it replaces;
+// TARGET.size, the number of inputs after the last merge.
 
 fs::path beside(const fs::path& corpus, const char* suffix) { return corpus.string() + suffix; }
 
@@ -193,14 +195,14 @@ void put_in_place(const fs::path& corpus) {
 }
 
 /// True where the merge was completed in time.
-bool merge(const FuzzTarget& target, const FuzzNight& night, const fs::path& corpus) {
+bool merge(const BuiltTarget& target, const FuzzNight& night, const fs::path& corpus) {
   const fs::path into = beside(corpus, ".merging");
   make_folder(into);
   Program p;
   p.arguments = {target.file.string(), "-merge=1", "-merge_control_file=" + beside(corpus, ".control").string(),
                  into.string(), corpus.string()};
-  p.environment = environment_of_target(night.foreign, night.run_folder, night.profile);
-  p.log = (night.run_folder / "fuzz" / (std::string(target.query->name) + "-merge.log")).string();
+  p.environment = environment_of_target(target, night.foreign, night.run_folder, night.profile);
+  p.log = (night.run_folder / "fuzz" / (std::string(target.target->name) + "-merge.log")).string();
   SupervisedProcess child(p, Confinement::none());
   while (!child.has_ended(patience_ms)) {
     night.tick();
@@ -220,16 +222,16 @@ bool merge(const FuzzTarget& target, const FuzzNight& night, const fs::path& cor
 
 }  // namespace
 
-FuzzNightOutcome fuzz_in_turns(const std::vector<FuzzTarget>& targets, const FuzzNight& night) {
+FuzzNightOutcome fuzz_in_turns(const std::vector<BuiltTarget>& targets, const FuzzNight& night) {
   make_folder(night.run_folder / "fuzz");
   Turns turns(targets, night);
   turns.run();
   return turns.outcome();
 }
 
-MergeOutcome merge_corpora(const std::vector<FuzzTarget>& targets, const FuzzNight& night) {
+MergeOutcome merge_corpora(const std::vector<BuiltTarget>& targets, const FuzzNight& night) {
   struct Grown {
-    const FuzzTarget* target;
+    const BuiltTarget* target;
     fs::path corpus;
     std::uint64_t inputs;
     double factor;
@@ -237,8 +239,8 @@ MergeOutcome merge_corpora(const std::vector<FuzzTarget>& targets, const FuzzNig
   make_folder(night.run_folder / "fuzz");
   settle_corpora(targets, night.run_folder);
   std::vector<Grown> grown;
-  for (const FuzzTarget& t : targets) {
-    const fs::path corpus = night.run_folder / "corpus" / t.query->name;
+  for (const BuiltTarget& t : targets) {
+    const fs::path corpus = night.run_folder / "corpus" / t.target->name;
     const std::uint64_t now = inputs_in(corpus), last = size_after_last_merge(corpus);
     if (now >= 2 * std::max<std::uint64_t>(last, 64))
       grown.push_back({&t, corpus, now, double(now) / double(last + 1)});
@@ -247,17 +249,17 @@ MergeOutcome merge_corpora(const std::vector<FuzzTarget>& targets, const FuzzNig
   MergeOutcome o;
   for (const Grown& g : grown) {
     if (seconds_until(night.until) <= 0 || night.cancelled()) break;
-    night.activity(fmt::format("minimising the corpus of {}", g.target->query->name));
+    night.activity(fmt::format("minimising the corpus of {}", g.target->target->name));
     if (!merge(*g.target, night, g.corpus)) continue;
-    o.merged.emplace_back(g.target->query->name);
+    o.merged.emplace_back(g.target->target->name);
     o.before += g.inputs;
     o.after += inputs_in(g.corpus);
   }
   return o;
 }
 
-void settle_corpora(const std::vector<FuzzTarget>& targets, const fs::path& run_folder) {
-  for (const FuzzTarget& t : targets) settle(run_folder / "corpus" / t.query->name);
+void settle_corpora(const std::vector<BuiltTarget>& targets, const fs::path& run_folder) {
+  for (const BuiltTarget& t : targets) settle(run_folder / "corpus" / t.target->name);
 }
 
 }  // namespace nearmiss

@@ -11,8 +11,8 @@
 #include <iterator>
 #include <sstream>
 
+#include "corpus/files/files.hpp"
 #include "corpus/files/source_folder.hpp"
-#include "corpus/storage/codec.hpp"
 #include "corpus/storage/store.hpp"
 #include "impl/host/hosts.hpp"
 #include "impl/host/supervisor.hpp"
@@ -59,15 +59,27 @@ std::vector<fs::path> usual_folders() {
   return {build / "fuzz", build.parent_path() / "fuzz" / "fuzz", fs::path(source_folder()) / "build/fuzz/fuzz"};
 }
 
-FuzzTargets targets_in(const fs::path& folder, std::span<const Query* const> queries) {
-  FuzzTargets found;
+/// The targets of the queries, without their programs.
+std::vector<BuiltTarget> targets_of(std::span<const Query* const> queries) {
+  std::vector<BuiltTarget> all;
+  for (const FuzzTarget& t : fuzz_targets()) {
+    BuiltTarget chosen{&t, {}, {}};
+    std::copy_if(queries.begin(), queries.end(), std::back_inserter(chosen.queries),
+                 [&](const Query* q) { return t.asks(*q); });
+    if (!chosen.queries.empty()) all.push_back(std::move(chosen));
+  }
+  return all;
+}
+
+BuiltTargets targets_in(const fs::path& folder, std::span<const Query* const> queries) {
+  BuiltTargets found;
   found.where = folder.string();
-  for (const Query* q : queries) {
-    const fs::path file = folder / fmt::format("fuzz_{}", q->name);
-    if (!interrupted() && fs::is_regular_file(file) && has_libfuzzer(file)) {
-      found.targets.push_back({q, file});
+  for (BuiltTarget& t : targets_of(queries)) {
+    t.file = folder / fmt::format("fuzz_{}", t.target->name);
+    if (!interrupted() && fs::is_regular_file(t.file) && has_libfuzzer(t.file)) {
+      found.targets.push_back(std::move(t));
     } else {
-      found.missing.emplace_back(q->name);
+      found.missing.emplace_back(t.target->name);
     }
   }
   return found;
@@ -105,36 +117,41 @@ std::vector<std::string> environment_for_added(const ForeignSubjects& foreign) {
           fmt::format("{}={}", commands_variable, fmt::join(foreign.commands, "\n"))};
 }
 
-std::vector<std::string> environment_of_target(const ForeignSubjects& foreign, const fs::path& run_folder,
-                                               const std::string& profile) {
+std::vector<std::string> environment_of_target(const BuiltTarget& target, const ForeignSubjects& foreign,
+                                               const fs::path& run_folder, const std::string& profile) {
   std::vector<std::string> environment = environment_for_added(foreign);
+  std::vector<std::string_view> queries;
+  for (const Query* q : target.queries) queries.push_back(q->name);
+  environment.push_back(fmt::format("NEARMISS_QUERIES={}", fmt::join(queries, ",")));
   environment.push_back("NEARMISS_FUZZ_REPORTS=" + (run_folder / "fuzz").string());
   if (!profile.empty()) environment.push_back("NEARMISS_PROFILE=" + fs::absolute(profile).string());
   return environment;
 }
 
-FuzzTargets find_fuzz_targets(const std::optional<fs::path>& folder, std::span<const Query* const> queries) {
+BuiltTargets find_fuzz_targets(const std::optional<fs::path>& folder, std::span<const Query* const> queries) {
   if (folder) return targets_in(*folder, queries);
   std::string searched;
   for (const fs::path& f : usual_folders()) {
-    FuzzTargets found = targets_in(f, queries);
+    BuiltTargets found = targets_in(f, queries);
     if (!found.targets.empty()) return found;
     const std::string name = f.lexically_normal().string();
     if (searched.find(name) == std::string::npos) searched.append(searched.empty() ? "" : ", ").append(name);
   }
-  FuzzTargets none;
-  for (const Query* q : queries) none.missing.emplace_back(q->name);
+  BuiltTargets none;
+  for (const BuiltTarget& t : targets_of(queries)) none.missing.emplace_back(t.target->name);
   none.where = searched;
   return none;
 }
 
-void put_seeds(const Query& query, const fs::path& run_folder) {
-  const fs::path corpus = run_folder / "corpus" / query.name;
+void put_seeds(const BuiltTarget& target, const fs::path& run_folder) {
+  const fs::path corpus = run_folder / "corpus" / target.target->name;
   make_folder(corpus);
-  for (const StoredCase& s : stored_cases(query)) {
-    const std::vector<std::uint8_t> bytes = case_to_bytes(s.question);
-    write_file(corpus / ("seed-" + s.file.stem().string()),
-               {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  for (const Query* q : target.queries) {
+    for (const StoredCase& s : stored_cases(*q)) {
+      const std::vector<std::uint8_t> bytes = target.target->bytes_of(s.question);
+      write_file(corpus / fmt::format("seed-{}-{}", q->name, s.file.stem().string()),
+                 {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    }
   }
 }
 
@@ -145,22 +162,22 @@ std::string without_leaks() {
   return fmt::format("ASAN_OPTIONS={}{}detect_leaks=0", named == nullptr ? "" : named, named == nullptr ? "" : ":");
 }
 
-Program program_of(const FuzzTarget& target, const FuzzBudget& budget, const fs::path& log) {
+Program program_of(const BuiltTarget& target, const FuzzBudget& budget, const fs::path& log) {
   const fs::path reports = budget.run_folder / "fuzz";
   Program p;
   p.arguments = {target.file.string(),
-                 (budget.run_folder / "corpus" / target.query->name).string(),
-                 fmt::format("-artifact_prefix={}/", (reports / target.query->name).string()),
+                 (budget.run_folder / "corpus" / target.target->name).string(),
+                 fmt::format("-artifact_prefix={}/", (reports / target.target->name).string()),
                  "-print_final_stats=1",
                  fmt::format("-timeout={}", seconds_for_one_case),
                  fmt::format("-rss_limit_mb={}", most_mebibytes)};
-  p.environment = environment_of_target(budget.foreign, budget.run_folder, budget.profile);
+  p.environment = environment_of_target(target, budget.foreign, budget.run_folder, budget.profile);
   p.environment.push_back(without_leaks());
   p.log = log.string();
   return p;
 }
 
-/// The first of fuzz/QUERY-1.log, fuzz/QUERY-2.log … that does not exist.
+/// The first of fuzz/TARGET-1.log, fuzz/TARGET-2.log … that does not exist.
 fs::path free_name_like(const fs::path& log) {
   for (int n = 1;; ++n) {
     const fs::path name = log.parent_path() / fmt::format("{}-{}.log", log.stem().string(), n);
@@ -175,22 +192,22 @@ enum class Asked { no, after_its_case, at_once, by_force };
 }  // namespace
 
 struct RunningTarget::State {
-  State(const FuzzTarget& target, const FuzzBudget& budget)
-      : query(target.query->name),
-        log(budget.run_folder / "fuzz" / (query + ".log")),
+  State(const BuiltTarget& target, const FuzzBudget& budget)
+      : name(target.target->name),
+        log(budget.run_folder / "fuzz" / (name + ".log")),
         deadline(begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(budget.seconds))),
         child(program_of(target, budget, log), Confinement::none()) {}
 
-  std::string query;
+  std::string name;
   fs::path log;
   Clock::time_point begin = Clock::now(), deadline;
   SupervisedProcess child;
   Asked asked_to_end = Asked::no;
 };
 
-RunningTarget::RunningTarget(const FuzzTarget& target, const FuzzBudget& budget) {
-  make_folder(budget.run_folder / "corpus" / target.query->name);
-  make_folder(budget.run_folder / "fuzz" / target.query->name);
+RunningTarget::RunningTarget(const BuiltTarget& target, const FuzzBudget& budget) {
+  make_folder(budget.run_folder / "corpus" / target.target->name);
+  make_folder(budget.run_folder / "fuzz" / target.target->name);
   state_ = std::make_unique<State>(target, budget);
 }
 
@@ -223,7 +240,7 @@ bool RunningTarget::has_ended(int milliseconds, bool cancelled) {
 FuzzOutcome RunningTarget::outcome() {
   State& s = *state_;
   FuzzOutcome o;
-  o.query = s.query;
+  o.target = s.name;
   o.seconds = std::chrono::duration<double>(Clock::now() - s.begin).count();
   o.executions = statistic_in(s.log, "number_of_executed_units");
   o.new_inputs = statistic_in(s.log, "new_units_added");

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "corpus/scenes/scene_cases.hpp"
-#include "corpus/storage/codec.hpp"
+#include "corpus/storage/fuzz_target.hpp"
 #include "corpus/storage/store.hpp"
 #include "impl/subject/provenance.hpp"
 #include "reports/engine/fuzz_night.hpp"
@@ -170,17 +170,19 @@ bool ask_properties(Run& run, Clock::time_point until, const Building& building)
   return !o.failed.empty() || !o.ended.empty();
 }
 
-void put_seeds_of(const scenes::Scene& scene, const FuzzTargets& found, const Run& run) {
+void put_seeds_of(const scenes::Scene& scene, const BuiltTargets& found, const Run& run) {
   constexpr std::uint64_t seeds_of_scalar = 64;
-  for (const FuzzTarget& t : found.targets) {
-    const fs::path corpus = run.settings().folder / "corpus" / t.query->name;
+  for (const BuiltTarget& t : found.targets) {
+    const fs::path corpus = run.settings().folder / "corpus" / t.target->name;
     make_folder(corpus);
-    for (const Subject* s : run.settings().subjects) {
-      if (s->offering(t.query->name).answer == nullptr) continue;
-      for (std::uint64_t i = 0; i < seeds_of_scalar; ++i) {
-        const auto bytes = case_to_bytes(scenes::draw_case(scene, *t.query, s->scalar, run.settings().seed, i));
-        write_file(corpus / fmt::format("scene-{}-{}", name_of(s->scalar), i),
-                   {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    for (const Query* q : t.queries) {
+      for (const Subject* s : run.settings().subjects) {
+        if (s->offering(q->name).answer == nullptr) continue;
+        for (std::uint64_t i = 0; i < seeds_of_scalar; ++i) {
+          const auto bytes = t.target->bytes_of(scenes::draw_case(scene, *q, s->scalar, run.settings().seed, i));
+          write_file(corpus / fmt::format("scene-{}-{}-{}", q->name, name_of(s->scalar), i),
+                     {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        }
       }
     }
   }
@@ -192,7 +194,7 @@ namespace {
 constexpr double judging_share = 0.1;
 
 Json outcome_json(const FuzzOutcome& o) {
-  return {{"query", o.query},           {"seconds", o.seconds}, {"turns", o.turns},   {"executions", o.executions},
+  return {{"target", o.target},         {"seconds", o.seconds}, {"turns", o.turns},   {"executions", o.executions},
           {"new_inputs", o.new_inputs}, {"ended", o.ended},     {"failed", o.failed}, {"asked", o.asked}};
 }
 
@@ -205,13 +207,19 @@ struct FuzzedTargets : FuzzNightOutcome {
     return std::accumulate(ran.begin(), ran.end(), std::uint64_t{0},
                            [](std::uint64_t sum, const FuzzOutcome& o) { return sum + o.executions; });
   }
+  static bool offers_a_query(const std::string& subject, const std::string& target) {
+    const std::vector<const Query*>& all = find_fuzz_target(target)->queries;
+    return std::any_of(all.begin(), all.end(), [&](const Query* q) {
+      return find_subject(subject)->offering(q->name).offer != Offer::not_offered;
+    });
+  }
   /// Subjects of NEARMISS_ADD that a target should ask but does not know, because it was built without them.
   std::vector<std::string> unknown() const {
     std::set<std::string> names;
     for (const FuzzOutcome& o : ran) {
       for (const std::string& name : added_subjects()) {
-        const bool offered = find_subject(name)->offering(o.query).offer != Offer::not_offered;
-        if (offered && !o.asked.empty() && std::find(o.asked.begin(), o.asked.end(), name) == o.asked.end())
+        if (offers_a_query(name, o.target) && !o.asked.empty() &&
+            std::find(o.asked.begin(), o.asked.end(), name) == o.asked.end())
           names.insert(name);
       }
     }
@@ -219,14 +227,15 @@ struct FuzzedTargets : FuzzNightOutcome {
   }
 };
 
-/// The case in a file that a fuzz target left: JSON, or an artifact of libFuzzer in its query's folder.
+/// The case in a file that a fuzz target left: JSON, or an artifact of libFuzzer in its target's folder.
 std::optional<Case> fuzzed_case(const fs::path& file) {
   if (file.extension() == ".json") return read_case_or_report(file);
-  const Query* query = find_query(file.parent_path().filename().string());
-  const std::string bytes = query == nullptr ? "" : read_file(file);
-  if (bytes.empty()) return std::nullopt;
-  std::optional<Case> c = case_from_bytes(*query, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-  if (c) c->origin = "fuzz/" + std::string(query->name) + "/" + file.filename().string();
+  const FuzzTarget* target = find_fuzz_target(file.parent_path().filename().string());
+  const std::string bytes = target == nullptr ? "" : read_file(file);
+  std::optional<Case> c = bytes.empty()
+                              ? std::nullopt
+                              : target->case_of({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  if (c) c->origin = fmt::format("fuzz/{}/{}", target->name, file.filename().string());
   return c;
 }
 
@@ -254,7 +263,7 @@ Json examine_fuzzed(Run& run) {
 
 }  // namespace
 
-NightFuzzing fuzz_all(Run& run, const FuzzTargets& found, const std::string& profile, unsigned jobs,
+NightFuzzing fuzz_all(Run& run, const BuiltTargets& found, const std::string& profile, unsigned jobs,
                       Clock::time_point end) {
   Json note{{"state", "not built"}, {"where", found.where}, {"missing", found.missing}, {"targets", Json::array()}};
   if (found.targets.empty()) {
@@ -273,7 +282,7 @@ NightFuzzing fuzz_all(Run& run, const FuzzTargets& found, const std::string& pro
   const MergeOutcome merged = merge_corpora(found.targets, night);
   night.until = between(now, end, 1 - judging_share);
   const FuzzedTargets all{fuzz_in_turns(found.targets, night)};
-  note["merged"] = {{"queries", merged.merged}, {"before", merged.before}, {"after", merged.after}};
+  note["merged"] = {{"targets", merged.merged}, {"before", merged.before}, {"after", merged.after}};
   for (const FuzzOutcome& o : all.ran) note["targets"].push_back(outcome_json(o));
   note["no_time"] = all.no_time;
   note["state"] = all.ran.empty() ? "no time" : "ran";

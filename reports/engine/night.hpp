@@ -64,7 +64,7 @@ bool ask_properties(Run& run, Run::Clock::time_point until, const Building& buil
 
 /// Puts cases of the scene into the corpora of the targets, for them to start from, in the scalars of the subjects that
 /// are asked them.
-void put_seeds_of(const scenes::Scene& scene, const FuzzTargets& found, const Run& run);
+void put_seeds_of(const scenes::Scene& scene, const BuiltTargets& found, const Run& run);
 
 struct NightFuzzing {
   std::string text;     ///< for the summary
@@ -72,7 +72,7 @@ struct NightFuzzing {
 };
 /// Runs the fuzz targets, so many at once, and judges what they find. `profile` is the file of the profile that they
 /// keep to; empty: none.
-NightFuzzing fuzz_all(Run& run, const FuzzTargets& found, const std::string& profile, unsigned jobs,
+NightFuzzing fuzz_all(Run& run, const BuiltTargets& found, const std::string& profile, unsigned jobs,
                       Run::Clock::time_point end);
 
 }  // namespace nearmiss

@@ -13,6 +13,7 @@
 #include "impl/host/engines.hpp"
 #include "impl/subject/printable.hpp"
 #include "oracles/requirements.hpp"
+#include "reports/findings/encoded.hpp"
 #include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
 
@@ -276,6 +277,31 @@ nlohmann::ordered_json measure_to_json(const SceneMeasure& m) {
   return j;
 }
 
+std::optional<AddedByReport> added_by(const nlohmann::json& report) {
+  if (!report.contains("replay") || !report["replay"].is_string()) return std::nullopt;
+  const auto words = words_of_shell(report["replay"].get<std::string>());
+  if (!words || words->size() < 3 || (*words)[0] != "nearmiss" || (*words)[1] != "replay") return std::nullopt;
+  AddedByReport added;
+  for (std::size_t i = 2; i + 1 < words->size(); i += 2) {
+    const auto &option = (*words)[i], &value = (*words)[i + 1];
+    if ((option != "--plugin" && option != "--command") || i + 2 >= words->size()) return std::nullopt;
+    added.options += fmt::format("{}{} {}", added.options.empty() ? "" : " ", option, shell_quoted(value));
+    added.started += (added.started.empty() ? "" : " and ") + shell_quoted(value);
+  }
+  return added;
+}
+
+namespace {
+
+/// How to add the subject of a report that is not loaded.
+std::string how_to_add(const nlohmann::json& report) {
+  const std::optional<AddedByReport> added = added_by(report);
+  if (!added || added->options.empty()) return "--plugin and --command add subjects";
+  return fmt::format("this adds it, and starts {}: {}", one_line(added->started, 300), one_line(added->options, 600));
+}
+
+}  // namespace
+
 std::optional<const Subject*> subject_of_report(const nlohmann::json& j, const std::string& file) {
   if (!j.is_object() || !j.contains("finding") || !j.contains("subject")) return {};
   if (!j["subject"].is_object()) {
@@ -287,7 +313,7 @@ std::optional<const Subject*> subject_of_report(const nlohmann::json& j, const s
   if (subject != nullptr) return subject;
   const std::string missing = name.is_string() ? how_to_install(name.get<std::string>()) : "";
   throw BadInput(fmt::format("{}: it is about {}, which is no subject here; {}", file, one_line(name.dump(), 60),
-                             missing.empty() ? "--plugin and --command add subjects" : missing));
+                             missing.empty() ? how_to_add(j) : missing));
 }
 
 std::string replay_command(const Subject& subject, const std::string& file) {

@@ -28,6 +28,15 @@ SceneMeasure measure_or(std::optional<double> given, const nlohmann::json& j, co
 /// The subject of a report; empty for JSON that is no report. Throws BadInput where no such subject is loaded.
 std::optional<const Subject*> subject_of_report(const nlohmann::json& j, const std::string& file);
 
+/// What the command of a report adds: the options as words of the shell, and what they start.
+struct AddedByReport {
+  std::string options;  ///< "--command 'python3 x.py'"; empty where it adds nothing
+  std::string started;
+};
+/// Empty where the command of the report is none that asks a subject again. Anybody may have written the report: a
+/// reader is shown no other command, and is told what this one starts.
+std::optional<AddedByReport> added_by(const nlohmann::json& report);
+
 /// One case and its reports, one for each subject that was asked.
 struct Replay {
   Case question;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "reports/page/picture_shapes.hpp"
+#include "reports/picture/picture_shapes.hpp"
 
 namespace nearmiss {
 
@@ -145,37 +145,11 @@ class CasePicture {
     } else if (inputs_.time && !decides(question_.query->kind)) {
       time_ = *inputs_.time;
     } else {
-      time_ = time_of_approach();
+      time_ = inputs_.time_of_approach();
     }
     for (PictureShape& s : inputs_.shapes) {
       if (s.moves) move_by(s, *inputs_.velocity * time_);
     }
-  }
-  const PictureShape* moving() const {
-    const auto found =
-        std::find_if(inputs_.shapes.begin(), inputs_.shapes.end(), [](const PictureShape& s) { return s.moves; });
-    return found == inputs_.shapes.end() ? nullptr : &*found;
-  }
-  const PictureShape* other_than(const PictureShape* shape) const {
-    const auto found = std::find_if(inputs_.shapes.rbegin(), inputs_.shapes.rend(),
-                                    [&](const PictureShape& s) { return &s != shape && s.is_body(); });
-    return found == inputs_.shapes.rend() ? nullptr : &*found;
-  }
-  /// When the path of the moving shape's first corner is nearest to the other shape.
-  PictureReal time_of_approach() const {
-    const PictureShape *mover = moving(), *other = other_than(mover);
-    if (mover == nullptr || other == nullptr || mover->corners.empty()) return 0;
-    const PictureShape path{"", Shape::ray, {mover->corners[0]}, *inputs_.velocity};
-    const PictureVector met = meeting(path, *other).second;
-    const PictureReal t = dot(nearest_point(path, met) - mover->corners[0], path.axis) / dot(path.axis, path.axis);
-    return inputs_.time && t > *inputs_.time ? PictureReal(*inputs_.time) : t;
-  }
-  /// Points of two convex shapes that are near each other, by alternating projections.
-  static std::pair<PictureVector, PictureVector> meeting(const PictureShape& a, const PictureShape& b) {
-    constexpr int rounds = 64;  // a picture's center need not be the nearest point
-    PictureVector p = nearest_point(a, a.corners.empty() ? PictureVector{} : a.corners[0]), q = nearest_point(b, p);
-    for (int i = 0; i < rounds; ++i) p = nearest_point(a, q), q = nearest_point(b, p);
-    return {p, q};
   }
 
   /// The point that the coordinates are relative to, rounded to a number of the scalar.
@@ -186,23 +160,10 @@ class CasePicture {
     } else if (!claimed_.places.empty()) {
       at = claimed_.places[0].middle();
     } else {
-      at = where_shapes_meet();
+      at = inputs_.where_shapes_meet();
     }
     anchor_ = {in_scalar_of(at.x), in_scalar_of(at.y), in_scalar_of(at.z)};
     for (PictureShape& s : inputs_.shapes) move_by(s, anchor() * PictureReal(-1));
-  }
-  PictureVector where_shapes_meet() const {
-    const PictureShape *first = moving() != nullptr ? moving() : first_body(), *other = other_than(first);
-    if (first == nullptr) return {};
-    if (other == nullptr) return nearest_point(*first, {});
-    PictureShape core = *first;  // of a ball its center: the nearest point to it is where the balls meets
-    if (core.shape == Shape::sphere) core.radius = 0;
-    return meeting(core, *other).second;
-  }
-  const PictureShape* first_body() const {
-    const auto found =
-        std::find_if(inputs_.shapes.begin(), inputs_.shapes.end(), [](const PictureShape& s) { return s.is_body(); });
-    return found == inputs_.shapes.end() ? nullptr : &*found;
   }
   double in_scalar_of(const PictureReal& x) const {
     const double most = largest_finite(question_.scalar), d = std::clamp(x.convert_to<double>(), -most, most);
@@ -246,7 +207,7 @@ class CasePicture {
 
   /// Distances along the way from the place at `time` on; a time is time + distance * time_per_unit.
   Json motion() const {
-    if (!inputs_.velocity || moving() == nullptr) return nullptr;
+    if (!inputs_.velocity || inputs_.moving() == nullptr) return nullptr;
     const PictureReal speed = length(*inputs_.velocity);
     const auto distance = [&](const PictureReal& t) { return rounded((t - time_) * speed / unit_); };
     Json j{{"along", vector_to_json(unit(*inputs_.velocity))},

@@ -1,4 +1,5 @@
 /* A plugin with one fault, which a definition of the build selects. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "impl/plugin/nearmiss_plugin.h"
@@ -63,6 +64,9 @@ static const nearmiss_contract contract = {-1, 0, 0, 0, 0, 0};
 #define CONTRACT &contract
 #elif defined(CONTRACT_UPSIDE_DOWN)
 static const nearmiss_contract contract = {1, 1, 1, 0, 20, -20};
+#define CONTRACT &contract
+#elif defined(CONTRACT_OF_NOTHING)
+static const nearmiss_contract contract = {INFINITY, INFINITY, INFINITY, 0, -20, 20};
 #define CONTRACT &contract
 #else
 #define CONTRACT NULL

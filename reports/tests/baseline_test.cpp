@@ -12,9 +12,9 @@
 namespace nearmiss {
 namespace {
 
-constexpr const char* query = "sphere_sphere_overlap";
+constexpr const char* asked_query = "sphere_sphere_overlap";
 
-FindingKind kind_with(const std::string& fault) { return {query, "other", fault, "decision", "what is asked"}; }
+FindingKind kind_with(const std::string& fault) { return {asked_query, "other", fault, "decision", "what is asked"}; }
 
 FeatureRegions regions_with(std::initializer_list<FeatureRegion> all) {
   FeatureRegions regions;
@@ -36,7 +36,7 @@ TriagedSignature row_of(const FindingPart& part) {
 /// So many findings of each part, in cases of its regions.
 Sample sample_with(std::uint64_t cases, const std::vector<std::pair<FindingPart, std::uint64_t>>& findings) {
   Sample s;
-  s.asked[{query, "other"}] = {cases, cases};
+  s.asked[{asked_query, "other"}] = {cases, cases};
   for (const auto& [part, count] : findings) s.findings[class_of(part.kind, part.regions)] = count;
   return s;
 }
@@ -54,7 +54,7 @@ SignatureChange change_of(const FindingPart& part, const Sample& before, const S
 }
 
 const FindingPart miss{kind_with("false-miss"), {}};
-const FindingPart hit{kind_with("false-hit"), {}};
+const FindingPart hit_part{kind_with("false-hit"), {}};
 
 TEST(Rates, AreComparedExactly) {
   EXPECT_NEAR(chance_without_rise({0, 4000}, {15, 4000}), 0x1p-15, 1e-12);
@@ -73,7 +73,7 @@ TEST(Baselines, ARowIsNewOnlyWhereMoreFindingsAreProved) {
   EXPECT_EQ(change_of(miss, sample_with(4000, {{miss, 38}}), sample_with(4000, {{miss, 40}}), false),
             SignatureChange::known)
       << "the baseline has such findings, in another row";
-  EXPECT_EQ(change_of(miss, sample_with(4000, {{hit, 38}}), sample_with(4000, {{miss, 40}}), false),
+  EXPECT_EQ(change_of(miss, sample_with(4000, {{hit_part, 38}}), sample_with(4000, {{miss, 40}}), false),
             SignatureChange::fresh);
   EXPECT_EQ(change_of(miss, {}, sample_with(4000, {{miss, 3}}), false), SignatureChange::fresh)
       << "an older baseline, without counts";
@@ -100,7 +100,7 @@ TEST(Baselines, ARowIsWorseOnlyWhereMoreFindingsAreProved) {
 // One bug.
 
 const Subject& balls() {
-  static const Subject s = subject_with(query, [](Numbers n) { return exact_answer(query, n); });
+  static const Subject s = subject_with(asked_query, [](Numbers n) { return exact_answer(asked_query, n); });
   return s;
 }
 
@@ -111,7 +111,7 @@ class Findings {
            FeatureRegions regions = {}, const std::vector<Disagreement>& also = {}) {
     filed_.push_back(std::make_unique<FiledReport>());
     filed_.back()->subject = &balls();
-    filed_.back()->question = in_double(query, {0, 0, 0, 1, 1, 0, 0, 1});
+    filed_.back()->question = in_double(asked_query, {0, 0, 0, 1, 1, 0, 0, 1});
     auto c = std::make_unique<Candidate>();
     c->filed = filed_.back().get();
     c->finding.verdict = Verdict::exceeds_measure;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "corpus/files/source_folder.hpp"
 #include "corpus/storage/codec.hpp"
 #include "impl/host/hosts.hpp"
 #include "reports/tests/program.hpp"
@@ -109,6 +110,23 @@ TEST(NightWhileBuilding, EndsWhereItsSubjectsCannotBeBuilt) {
   const Ran ran = run_program("/bin/bash", night_with(folder, "echo subjects", "0.1"));
   EXPECT_EQ(ran.exit_code, 2);
   EXPECT_NE(ran.err.find("could not build the subjects"), std::string::npos) << ran.err;
+}
+
+/// The commands of the launcher itself print their manuals, and build nothing for it.
+TEST(Launcher, PrintsTheManualsOfItsOwnCommands) {
+  const std::string launcher = source_folder() + "/nearmiss";
+  for (const char* command : {"check", "build", "engines"}) {
+    const std::string start = std::string("./nearmiss ") + command;
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"help", command}, {command, "--help"}, {command, "-h"}, {command, "x", "--help"}}) {
+      const Ran ran = run_program(launcher, words);
+      EXPECT_EQ(ran.exit_code, 0) << command << ran.err;
+      EXPECT_TRUE(ran.out.starts_with(start + " ")) << ran.out;
+      EXPECT_EQ(ran.out.find("./nearmiss", 1), std::string::npos) << "of one command: " << ran.out;
+      EXPECT_EQ(ran.err, "");
+    }
+    EXPECT_NE(nearmiss({"help"}).out.find(command), std::string::npos);
+  }
 }
 
 }  // namespace

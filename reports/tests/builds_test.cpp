@@ -54,6 +54,29 @@ TEST(BitDifference, TakesAllNaNForTheSameAndTheZerosForDifferent) {
   EXPECT_EQ(zeros->numbers.at(0).ulps, 0u);
 }
 
+/// One word for one thing: what a replay calls not proved is not called wrong.
+TEST(Builds, SayNotProvedWhereAReplayDoes) {
+  Subject base, other;
+  base.name = "old", other.name = "new";
+  ComparedBuild c{&query_of("moving_point_sphere"), &base, &other};
+  c.first = FirstDifference{};
+  c.first->base = {hit_at(1), {}, true};
+  Answer miss = hit_at(1);
+  miss.yes = false;
+  const auto said_of = [&](const Answer& answer, Verdict verdict) {
+    Finding f;
+    f.verdict = verdict;
+    c.first->other = {answer, f, false};
+    return right_text(c);
+  };
+  EXPECT_EQ(said_of(miss, Verdict::violates_contract), "old is right, and new is wrong");
+  EXPECT_EQ(said_of(miss, Verdict::exceeds_measure), "old is right, and new is wrong");
+  EXPECT_EQ(said_of(miss, Verdict::not_proved),
+            "old is right, and new has another decision, not proved to differ by more than is allowed");
+  EXPECT_EQ(said_of(Answer::without(Answer::Status::broke, "x"), Verdict::broke),
+            "old is right, and new has no answer");
+}
+
 TEST(BitDifference, IsNoneInNumbersWithoutAMeaning) {
   Answer miss = hit_at(1), other_miss = hit_at(2);
   miss.yes = other_miss.yes = false;

@@ -15,10 +15,10 @@
 #include "impl/subject/provenance.hpp"
 #include "reports/findings/report.hpp"
 #include "reports/findings/text.hpp"
+#include "reports/picture/text_picture.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/upstream/emit_test.hpp"
 #include "reports/upstream/right_answers.hpp"
-#include "reports/upstream/text_picture.hpp"
 
 namespace nearmiss {
 namespace {
@@ -73,6 +73,10 @@ TEST(EmitTest, FclFailsAndPassesAsSaid) {
       {"upstream/fcl/apart-degenerate-triangle.json", "fcl-indep", "false-hit"},
       {"upstream/fcl/distance-aborts-at-a-touch.json", "fcl-distance-indep", "Assertion"},
       {"upstream/fcl/apart-distance-of-kissing-boxes.json", "fcl-distance", "wrong-depth"},
+      {"upstream/fcl/capsules-that-overlap.json", "fcl-distance-indep", "Assertion"},
+      {"seeds/sphere_triangle_signed_distance/gap-face.json", "fcl-distance", ""},
+      {"seeds/triangle_triangle_signed_distance/gap-face.json", "fcl-distance", ""},
+      {"seeds/sphere_triangle_overlap/apart-above.json", "fcl", ""},
   });
 }
 
@@ -86,6 +90,7 @@ TEST(EmitTest, LibccdFailsAndPassesAsSaid) {
       {"seeds/sphere_triangle_overlap/overlap-face.json", "libccd-gjk", ""},
       {"seeds/aabox_triangle_overlap/overlap-through.json", "libccd-mpr", ""},
       {"seeds/moving_sphere_passes_box/hit-face.json", "libccd-gjk", ""},
+      {"upstream/libccd/segment-and-triangle-in-a-plane.json", "libccd-mpr", "false-hit"},
   });
 }
 
@@ -101,6 +106,10 @@ TEST(EmitTest, BulletFailsAndPassesAsSaid) {
       {"seeds/moving_sphere_sphere/hit-head-on.json", "bullet", ""},
       {"seeds/moving_sphere_sphere/hit-overlap.json", "bullet", ""},
       {"seeds/sphere_plane_penetration/overlap.json", "bullet-float", ""},
+      {"seeds/sphere_triangle_overlap/overlap-face.json", "bullet", ""},
+      {"upstream/bullet/triangles-that-cross.json", "bullet", "false-miss"},
+      {"seeds/sphere_triangle_signed_distance/gap-face.json", "bullet", ""},
+      {"upstream/bullet/cubes-half-in-each-other.json", "bullet", "wrong-normal"},
   });
 }
 
@@ -112,6 +121,8 @@ TEST(EmitTest, OdeFailsAndPassesAsSaid) {
       {"upstream/ode/sphere-on-an-edge.json", "ode", "wrong-normal"},
       {"seeds/moving_point_capsule/hit-tube.json", "ode", ""},
       {"seeds/box_plane_penetration/overlap-corner.json", "ode", ""},
+      {"seeds/point_sphere_signed_distance/degenerate-equal.json", "ode", ""},
+      {"upstream/ode/parallel-segments.json", "ode", "wrong-place"},
   });
 }
 
@@ -193,7 +204,8 @@ TEST(EmitTest, ItsCommandLineNamesFilesThatExist) {
   ASSERT_EQ(emitted.exit_code, 0) << emitted.err;
   const std::string text = read_file(bug);
   const std::string header = (fs::path(source_folder()) / "impl/plugin").string();
-  EXPECT_NE(text.find("cc '" + bug + "' -I " + header + " " + plugin_file("skim_plugin") + " -lm\n"), std::string::npos)
+  EXPECT_NE(text.find("cc '" + bug + "' -I " + header + " " + plugin_file("skim_plugin") + " -lm -o finding\n"),
+            std::string::npos)
       << text;
   const std::size_t at = text.find("cc '");
   const std::string build = text.substr(at, text.find('\n', at) - at) + " -o " + (folder / "bug").string();
@@ -268,6 +280,20 @@ TEST(UpstreamReport, HasEverythingAndNoFolderOfThisMachine) {
     EXPECT_NE(ran.out.find(part), std::string::npos) << part << "\n" << ran.out;
   }
   EXPECT_EQ(ran.out.find(source_folder()), std::string::npos);
+}
+
+TEST(UpstreamReport, ShowsThePictureBesideIt) {
+  if (find_subject("ode") == nullptr) GTEST_SKIP() << "ode is not in this build";
+  const TemporaryFolder folder;
+  const std::string svg = (folder / "the boxes.svg").string();
+  const std::string file = in_corpus("upstream/ode/overlapping-boxes.json").string();
+  const Ran ran = nearmiss({"upstream-report", "--for", "ode", file, "--picture", svg});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(ran.out.find("![The scene, the exact answer and the given one](<the boxes.svg>)"), std::string::npos)
+      << ran.out;
+  EXPECT_EQ(ran.out.find(folder.path().string()), std::string::npos) << "a folder of this machine";
+  EXPECT_EQ(read_file(svg), read_file(fs::path(source_folder()) / "docs/images/upstream/ode-overlapping-boxes.svg"));
+  EXPECT_EQ(nearmiss({"upstream-report", "--for", "ode", file}).out.find("![The scene"), std::string::npos);
 }
 
 /// A sphere of radius 1 that moves along x from 4 to a sphere of radius 2.

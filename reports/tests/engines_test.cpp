@@ -111,5 +111,29 @@ TEST(Engines, AnInstalledOneIsExaminedAndAskedAgainByItsName) {
   if (!any) GTEST_SKIP() << "no engine is installed; './nearmiss engines NAME' installs one";
 }
 
+/// An adapter with another direction of the normal or another order of the points would make every answer a finding.
+TEST(Engines, ASignedDistanceHasItsDirectionAndItsOrder) {
+  const json listed = json::parse(nearmiss({"list", "--json"}).out);
+  bool any = false;
+  for (const Engine& engine : engines()) {
+    if (!engine.is_installed) continue;
+    std::vector<std::string> command{"check-subject", "--subject", engine.name};
+    for (const json& q : listed.at("queries")) {
+      const std::string query = q.at("query");
+      if (query.ends_with("_signed_distance") && q.at("engines").at(engine.name) == "answers")
+        command.insert(command.end(), {"--query", query});
+    }
+    if (command.size() == 3) continue;
+    any = true;
+    SCOPED_TRACE(engine.name);
+    const Ran ran = nearmiss(command);
+    EXPECT_LE(ran.exit_code, 1) << ran.err;
+    EXPECT_NE(ran.out.find(" answered without a mistake"), std::string::npos) << ran.out;
+    for (const char* meaning : {"points the other way", "is that of another one"})
+      EXPECT_EQ(ran.out.find(meaning), std::string::npos) << ran.out;
+  }
+  if (!any) GTEST_SKIP() << "no engine with signed distances is installed";
+}
+
 }  // namespace
 }  // namespace nearmiss

@@ -9,7 +9,9 @@
 #include "corpus/scenes/scene_cases.hpp"
 #include "corpus/storage/codec.hpp"
 #include "impl/subject/subject.hpp"
+#include "reports/engine/extremes.hpp"
 #include "reports/engine/map_cases.hpp"
+#include "reports/tests/mistaken_subject.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 
@@ -123,6 +125,63 @@ TEST(Extremes, GiveUpASubjectThatDoesNotComeBackAndSaySo) {
   EXPECT_LE(time_outs, 12u + 2u);
   EXPECT_GT(given_up, 0u);
   EXPECT_GT(asked_before, 100u) << "where it answers, it is asked";
+}
+
+/// It breaks at once in every case, and a map has thousands.
+TEST(Extremes, GiveUpASubjectThatAlwaysBreaksAndSaySo) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("breaks.sh", R"(
+echo '{"nearmiss": 3, "name": "breaks", "scalar": "double", "batches": "json", "offers": [{"query": "sphere_sphere_overlap"}]}' >&4
+read -r batch <&3 && exit 7
+)");
+  const json report = swept(
+      folder, {"--command", "sh " + file, "--subject", "breaks", "--query", "sphere_sphere_overlap", "--cases", "4"});
+  EXPECT_EQ(complaints(report, "extremes.schema.json"), "");
+  for (const json& m : report.at("maps")) {
+    const auto total = [&](const char* member) {
+      std::uint64_t sum = 0;
+      for (const json& row : m.at(member)) {
+        for (const json& cell : row) sum += cell.get<std::uint64_t>();
+      }
+      return sum;
+    };
+    const std::uint64_t broke = total("broke"), gave_up = total("gave_up");
+    EXPECT_GE(broke, 64u);
+    EXPECT_LE(broke, 64u + 2u) << "64, and those that were asked together with the last";
+    EXPECT_GT(gave_up, 100u);
+  }
+}
+
+/// A map begins in a corner of extreme numbers: breaking there says nothing of the rest.
+TEST(Extremes, AskOnWhereAnOrdinaryCaseIsAnswered) {
+  const Subject s = subject_with("sphere_sphere_overlap", [](std::span<const double> values) -> Answer {
+    for (const double x : values) {
+      if (std::abs(x) > 1e3 || (x != 0 && std::abs(x) < 1e-3)) throw std::runtime_error("not for such numbers");
+    }
+    return exact_answer("sphere_sphere_overlap", values);
+  });
+  const TemporaryFolder folder;
+  ExtremesSettings settings;
+  settings.folder = folder / "out";
+  settings.queries = {find_query("sphere_sphere_overlap")};
+  settings.subjects = {&s};
+  settings.cases = 8;
+  Extremes extremes(settings);
+  extremes.fill();
+  const json report = extremes.to_json();
+  std::uint64_t answered = 0, broke = 0, gave_up = 0;
+  for (const json& m : report.at("maps")) {
+    for (std::size_t j = 0; j < m.at("cases").size(); ++j) {
+      for (std::size_t i = 0; i < m.at("cases")[j].size(); ++i) {
+        answered += m.at("cases")[j][i].get<std::uint64_t>();
+        broke += m.at("broke")[j][i].get<std::uint64_t>();
+        gave_up += m.at("gave_up")[j][i].get<std::uint64_t>();
+      }
+    }
+  }
+  EXPECT_GT(broke, 64u);
+  EXPECT_GT(answered, 0u);
+  EXPECT_EQ(gave_up, 0u);
 }
 
 TEST(Extremes, GiveTheSameMapsForTheSameSeed) {

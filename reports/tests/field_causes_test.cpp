@@ -67,7 +67,8 @@ TEST(FieldCauses, EachStoredAnswerIsAFinding) {
   if (is_sanitized) GTEST_SKIP() << "it examines the set, not the code";
   const std::string python = example_py().substr(0, example_py().find(' '));
   for (const auto& [subject, cases] : cases_by_subject()) {
-    const std::set<std::string> of_floats{"bullet-float", "rapier3d", "jolt", "physx"};
+    const std::set<std::string> of_floats{"bullet-float", "embree",       "jolt",    "jolt-strict",
+                                          "physx",        "physx-strict", "rapier3d"};
     const bool in_float = of_floats.contains(subject);
     const std::string scalar = in_float ? "float" : "double";
     const TemporaryFolder folder;

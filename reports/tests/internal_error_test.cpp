@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr const char* words =
+constexpr const char* contradiction =
     "collide-fast-double: the judge contradicts itself about sphere_sphere_overlap: at first \"";
 
 /// The command line with tests/contradicting_oracle.cpp in it.
@@ -55,7 +55,7 @@ TEST(InternalErrors, EndARunWithBothWordsAndItsFindings) {
   const TemporaryFolder folder;
   const Ran ran = contradicting({"run", "--cases", "300"}, folder);
   EXPECT_EQ(ran.exit_code, InternalError::exit_code) << ran.err;
-  EXPECT_EQ(lines_with(words, ran.err), 8u) << ran.err;
+  EXPECT_EQ(lines_with(contradiction, ran.err), 8u) << ran.err;
   EXPECT_NE(ran.out.find(" internal errors, see "), std::string::npos) << ran.out;
   const json index = json::parse(read_file(folder / "r" / "index.json"));
   check(folder, index, "run.schema.json");
@@ -81,7 +81,7 @@ TEST(InternalErrors, EndRelationsAndExtremes) {
   const TemporaryFolder related, swept;
   const Ran relations = contradicting({"relations", "--cases", "5000"}, related);
   EXPECT_EQ(relations.exit_code, InternalError::exit_code) << relations.err;
-  EXPECT_NE(relations.err.find(words), std::string::npos) << relations.err;
+  EXPECT_NE(relations.err.find(contradiction), std::string::npos) << relations.err;
   check(related, json::parse(read_file(related / "r" / "relations.json")), "relations.schema.json");
   const Ran extremes = contradicting({"extremes", "--cases", "1"}, swept);
   EXPECT_EQ(extremes.exit_code, InternalError::exit_code) << extremes.err;
@@ -91,18 +91,18 @@ TEST(InternalErrors, EndRelationsAndExtremes) {
 /// The night is interrupted once it has met an internal error, whenever that is. The internal error decides the exit
 /// code.
 TEST(InternalErrors, EndANight) {
-  constexpr double soon = 60, long_enough = 600;  // seconds; a busy machine under a sanitizer takes many
+  constexpr double until_ended = 60, until_error = 600;  // seconds; a busy machine under a sanitizer takes many
   const TemporaryFolder folder;
   Started night(contradicting_program(),
                 {"nightly", "--no-triage", "--minutes", "60", "--out", (folder / "r").string()}, {});
   std::optional<Ran> ran;
-  for (double waited = 0; waited < long_enough && !ran; waited += 0.2) {
+  for (double waited = 0; waited < until_error && !ran; waited += 0.2) {
     if (fs::exists(folder / "r/internal-errors")) break;
     ran = night.wait(0.2);
   }
   ASSERT_FALSE(ran.has_value()) << ran->out << ran->err;
   night.send(SIGTERM);
-  ran = night.wait(soon);
+  ran = night.wait(until_ended);
   ASSERT_TRUE(ran.has_value()) << "it goes on";
   EXPECT_EQ(ran->exit_code, InternalError::exit_code) << ran->err;
   EXPECT_NE(ran->err.find("the judge contradicts itself about sphere_sphere_overlap"), std::string::npos) << ran->err;

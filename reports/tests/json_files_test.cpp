@@ -194,8 +194,8 @@ TEST_F(JsonFiles, IndexForTriage) {
   fs::copy(in("run") + "/index.json", in("sources"));
   const fs::path file = fs::path(in("sources")) / "index.json";
   const auto read = [&] {
-    const Sources sources = read_sources({in("sources")});
-    for (const auto& [skipped, why] : sources.skipped) {
+    const Sources found = read_sources({in("sources")});
+    for (const auto& [skipped, why] : found.skipped) {
       if (skipped == file)
         throw BadInput(skipped + ": " + why);  // NOLINT(performance-inefficient-string-concatenation)
     }

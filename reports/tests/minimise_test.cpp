@@ -140,8 +140,21 @@ TEST(Minimise, StopsAtItsLimitsWithACaseThatHasTheFinding) {
   EXPECT_EQ(no_time->end, Minimised::End::time);
   EXPECT_EQ(no_time->report.question.values, overlapping().values);
   EXPECT_TRUE(no_time->ranges.empty());
-  EXPECT_FALSE(no_time->all_ranges);
+  EXPECT_EQ(no_time->ranges_end, Minimised::RangesEnd::time);
   EXPECT_NE(ranges_text(*no_time).find("the time was over"), std::string::npos);
+}
+
+/// Triage simplifies cases without asking for ranges: that is no lack of time.
+TEST(Minimise, SaysWhereNothingAskedForRanges) {
+  const auto m = minimised(overlapping(), mistaken(blind_above_two_and_a_half), {.finds_ranges = false});
+  ASSERT_TRUE(m.has_value());
+  const std::string text = ranges_text(*m);
+  EXPECT_EQ(text.find("time was over"), std::string::npos) << text;
+  EXPECT_NE(text.find("The numbers were not moved; 'nearmiss minimise' moves each."), std::string::npos) << text;
+  const nlohmann::json j = minimised_to_json(*m);
+  EXPECT_EQ(complaints(j, "report.schema.json"), "");
+  const Minimised read = minimised_from_json(FileValue(j, "report").at("minimised"), m->report);
+  EXPECT_EQ(ranges_text(read), text);
 }
 
 TEST(Minimise, IsTheSameEachTimeAndDoneAtOnce) {

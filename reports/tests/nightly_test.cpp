@@ -23,10 +23,10 @@ const char* const until_told =
     "until_told() { trap told=1 USR1; sleep 100 & while [ -z \"$told\" ]; do wait; done; kill $!; }\n";
 
 /// A shell script in the place of a fuzz target.
-FuzzTarget target(const TemporaryFolder& folder, const Query& query, const std::string& lines) {
+BuiltTarget target(const TemporaryFolder& folder, const Query& query, const std::string& lines) {
   const fs::path file = folder.file("fuzz_" + std::string(query.name), std::string("#!/bin/sh\n") + until_told + lines);
   fs::permissions(file, fs::perms::owner_all);
-  return {&query, file};
+  return {&fuzz_target_of(query), {&query}, file};
 }
 
 FuzzNight night_of(const TemporaryFolder& folder, unsigned jobs, std::chrono::milliseconds time) {
@@ -42,7 +42,7 @@ FuzzNight night_of(const TemporaryFolder& folder, unsigned jobs, std::chrono::mi
 
 const FuzzOutcome* of(const FuzzNightOutcome& o, const Query& query) {
   const auto found =
-      std::find_if(o.ran.begin(), o.ran.end(), [&](const FuzzOutcome& r) { return r.query == query.name; });
+      std::find_if(o.ran.begin(), o.ran.end(), [&](const FuzzOutcome& r) { return r.target == query.name; });
   return found == o.ran.end() ? nullptr : &*found;
 }
 
@@ -51,17 +51,17 @@ const char* const some_executions =
 
 TEST(FuzzNight, GivesEveryTargetATurn) {
   const TemporaryFolder folder;
-  std::vector<FuzzTarget> targets;
+  std::vector<BuiltTarget> targets;
   for (std::size_t i = 0; i < 6; ++i) targets.push_back(target(folder, catalogue()[i], some_executions));
   const FuzzNightOutcome o = fuzz_in_turns(targets, night_of(folder, 3, 4500ms));
   EXPECT_TRUE(o.no_time.empty()) << o.no_time.front();
   ASSERT_EQ(o.ran.size(), targets.size());
-  for (const FuzzOutcome& r : o.ran) EXPECT_GE(r.executions, 10u) << r.query;
+  for (const FuzzOutcome& r : o.ran) EXPECT_GE(r.executions, 10u) << r.target;
 }
 
 TEST(FuzzNight, NamesTheTargetsThatHadNoTurn) {
   const TemporaryFolder folder;
-  std::vector<FuzzTarget> targets;
+  std::vector<BuiltTarget> targets;
   for (std::size_t i = 0; i < 4; ++i) targets.push_back(target(folder, catalogue()[i], some_executions));
   const FuzzNightOutcome o = fuzz_in_turns(targets, night_of(folder, 1, 700ms));
   EXPECT_EQ(o.ran.size(), 1u);
@@ -80,19 +80,20 @@ TEST(FuzzNight, GivesMoreTurnsToATargetThatFindsNewInputs) {
   EXPECT_EQ(of(o, rich)->new_inputs, 50 * of(o, rich)->turns);
 }
 
-TEST(FuzzNight, TellsTargetsTheirProfileAndPutsNoOtherSeeds) {
+TEST(FuzzNight, TellsTargetsTheirQueriesAndProfileAndPutsNoOtherSeeds) {
   const TemporaryFolder folder;
   const Query& query = catalogue()[0];
+  const std::string asked = "," + std::string(query.name) + "\n";
   const std::string told =
-      "echo \"$NEARMISS_PROFILE\" > \"$NEARMISS_FUZZ_REPORTS/told\"\n" + std::string(some_executions);
+      "echo \"$NEARMISS_PROFILE,$NEARMISS_QUERIES\" > \"$NEARMISS_FUZZ_REPORTS/told\"\n" + std::string(some_executions);
   FuzzNight night = night_of(folder, 1, 1500ms);
   night.profile = "profile.json";
   fuzz_in_turns({target(folder, query, told)}, night);
-  EXPECT_EQ(read_file(folder / "run" / "fuzz" / "told"), fs::absolute("profile.json").string() + "\n");
+  EXPECT_EQ(read_file(folder / "run" / "fuzz" / "told"), fs::absolute("profile.json").string() + asked);
   EXPECT_TRUE(fs::is_empty(folder / "run" / "corpus" / query.name));
   night = night_of(folder, 1, 1500ms);
   fuzz_in_turns({target(folder, query, told)}, night);
-  EXPECT_EQ(read_file(folder / "run" / "fuzz" / "told"), "\n");
+  EXPECT_EQ(read_file(folder / "run" / "fuzz" / "told"), asked);
   EXPECT_FALSE(fs::is_empty(folder / "run" / "corpus" / query.name));
 }
 
@@ -102,7 +103,7 @@ TEST(FuzzNight, StopsTurnsOfATargetThatFailsAgainAndAgain) {
   ASSERT_EQ(o.ran.size(), 1u);
   EXPECT_TRUE(o.ran.front().failed);
   EXPECT_EQ(o.ran.front().turns, 3u);
-  EXPECT_TRUE(fs::exists(folder / "run" / "fuzz" / (o.ran.front().query + "-1.log")));
+  EXPECT_TRUE(fs::exists(folder / "run" / "fuzz" / (o.ran.front().target + "-1.log")));
 }
 
 /// Imitates libFuzzer's merge: keeps every second input.
@@ -127,7 +128,7 @@ TEST(Corpora, AreMinimisedOnceTheyHaveDoubled) {
   const TemporaryFolder folder;
   const Query& query = catalogue()[0];
   const fs::path corpus = corpus_of(folder, query, 200);
-  const std::vector<FuzzTarget> targets{target(folder, query, merges)};
+  const std::vector<BuiltTarget> targets{target(folder, query, merges)};
   const MergeOutcome first = merge_corpora(targets, night_of(folder, 1, 20s));
   EXPECT_EQ(first.before, 200u);
   EXPECT_EQ(first.after, 100u);
@@ -167,7 +168,7 @@ TEST(Corpora, SurviveAKillAtAnyMomentOfAMerge) {
     if (s.merging) fill(corpus.string() + ".merging", 1);
     if (s.merged) fill(corpus.string() + ".merged", 3);
     if (s.old) fill(corpus.string() + ".old", 5);
-    settle_corpora({{&query, {}}}, folder / "run");
+    settle_corpora({{&fuzz_target_of(query), {&query}, {}}}, folder / "run");
     ASSERT_TRUE(fs::exists(corpus));
     EXPECT_EQ(files_in(corpus), s.left);
     EXPECT_FALSE(fs::exists(corpus.string() + ".old"));

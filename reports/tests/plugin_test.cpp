@@ -5,6 +5,7 @@
 
 #include "corpus/files/source_folder.hpp"
 #include "corpus/storage/codec.hpp"
+#include "corpus/storage/store.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/tests/schema.hpp"
 
@@ -94,6 +95,41 @@ json tallies_beside(std::vector<std::string> arguments) {
   return json::parse(read_file(folder / "r" / "index.json")).at("tallies");
 }
 
+/// A program in Python, from the folder of the test; empty where there is no Python.
+std::string program_in_python() {
+  return python().empty() ? "" : python() + " " + source_folder() + "/docs/example-program/balls.py";
+}
+
+/// Which of two subjects a name stands for would be open.
+TEST(Plugin, OfTheNameOfAnotherIsRefusedInOneLine) {
+  const std::string file = (corpus_folder() / "seeds/sphere_sphere_overlap/touch.json").string();
+  const std::string one = program_in_python(), other = "env " + one;
+  if (one.empty()) GTEST_SKIP() << "there is no Python";
+  const Ran ran = nearmiss({"replay", "--command", one, "--command", other, file});
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  EXPECT_TRUE(ran.err.starts_with("nearmiss: " + other + ": there is a subject 'balls-py' already")) << ran.err;
+}
+
+/// A finding of a program names the option that adds the program, whatever command reads it.
+TEST(Plugin, IsAddedAsTheReportSays) {
+  if (example_py().empty()) GTEST_SKIP() << "there is no Python";
+  const TemporaryFolder folder;
+  const fs::path seed = corpus_folder() / "seeds/sphere_sphere_overlap/touch.json";
+  const Ran asked =
+      run_program("bash", {"-c", R"(cd "$1" && shift && exec "$@")", "bash", source_folder(), nearmiss_program(),
+                           "replay", "--json", "--command", example_py(), "-s", "balls-py", seed.string()});
+  const std::string file = folder.file("r.json", json::parse(asked.out).at(0).dump());
+  for (const char* command : {"show", "explain", "minimise", "emit-test", "upstream-report"}) {
+    const Ran ran = nearmiss({command, file});
+    EXPECT_EQ(ran.exit_code, 2) << command;
+    // From any folder: "cd '…' && exec PROGRAM".
+    const std::size_t at = ran.err.find("this adds it, and starts '");
+    EXPECT_TRUE(at != std::string::npos && ran.err.find(": --command 'cd ", at) != std::string::npos)
+        << command << ": " << ran.err;
+  }
+}
+
 /// The plugin sets flush to zero and upward rounding when it is loaded.
 TEST(Plugin, KeepsItsModesOfArithmeticToItself) {
   const json alone = tallies_beside({});
@@ -133,20 +169,21 @@ TEST_P(BadPluginFile, IsRefusedInOneLine) {
   EXPECT_NE(ran.err.find(GetParam().says), std::string::npos) << ran.err;
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, BadPluginFile,
-                         testing::Values(Refused{"nowhere", "there is no such file"},
-                                         Refused{"not_a_library", "it cannot be loaded"},
-                                         Refused{"no_entry", "no function nearmiss_plugin_entry"},
-                                         Refused{"other_version", "made for version 4"},
-                                         Refused{"first_version", "made for version 1 of nearmiss_plugin.h"},
-                                         Refused{"miscounts", "sphere_sphere_overlap has 8 inputs"},
-                                         Refused{"unknown_query", "'sphere_sphere_overlaps'"},
-                                         Refused{"taken_name", "there is a subject 'collide-fast-double' already"},
-                                         Refused{"contract_below_zero", "none may be below 0"},
-                                         Refused{"contract_upside_down", "lowest 20 above highest -20"},
-                                         Refused{"unknown_need", "requires 0x80000000 for sphere_sphere_overlap"},
-                                         Refused{"crashes", "killed by signal 6 (Aborted)"}),
-                         [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Faults, BadPluginFile,
+    testing::Values(Refused{"nowhere", "there is no such file"}, Refused{"not_a_library", "it cannot be loaded"},
+                    Refused{"no_entry", "no function nearmiss_plugin_entry"},
+                    Refused{"other_version", "made for version 4"},
+                    Refused{"first_version", "made for version 1 of nearmiss_plugin.h"},
+                    Refused{"miscounts", "sphere_sphere_overlap has 8 inputs"},
+                    Refused{"unknown_query", "'sphere_sphere_overlaps'"},
+                    Refused{"taken_name", "there is a subject 'collide-fast-double' already"},
+                    Refused{"contract_below_zero", "none may be below 0"},
+                    Refused{"contract_of_nothing", "has a domain, from 2^-20 to 2^20, and promises nothing there"},
+                    Refused{"contract_upside_down", "lowest 20 above highest -20"},
+                    Refused{"unknown_need", "requires 0x80000000 for sphere_sphere_overlap"},
+                    Refused{"crashes", "killed by signal 6 (Aborted)"}),
+    [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace nearmiss

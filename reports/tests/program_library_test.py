@@ -32,6 +32,8 @@ def move(q):
     if q.kind == 8: return {"location": (1, 2)}
     if q.kind == 9: return "yes"
     if q.kind == 10: raise RuntimeError("its own")
+    if q.kind == 11: return q.other.center
+    if q.kind == 12: return q.sphere.middle[0]
     return None
 
 def total(q):
@@ -55,6 +57,8 @@ function move(q) {
     case 8: return { location: [1, 2] };
     case 9: return "yes";
     case 10: throw new Error("its own");
+    case 11: return q.other.center;
+    case 12: return q.sphere.middle[0];
     default: return null;
   }
 }
@@ -192,7 +196,8 @@ class Tests:
     def test_failures(self):
         """A function that fails costs its own case alone: the answers to the cases before it are written."""
         for kind, words in ((7, "it has no 'tim'; it has time, location, turned, corners"), (8, "it has 3 numbers (x, y, z), and the answer has 2"),
-                            (9, "yes"), (10, "its own")):
+                            (9, "yes"), (10, "its own"), (11, "'other' is no input of move: it has kind, sphere, orientation"),
+                            (12, "'middle' is no input of move.sphere: it has center, radius")):
             program = self.start()
             if self.batches == "json":
                 program.send(json_batch("move", 0, [move(1), move(kind), move(1)]))
@@ -203,7 +208,22 @@ class Tests:
                 self.assertEqual(binary_answer(program.answers.read, 14)[:2], (0, True))
             code, rest, messages = program.close()
             self.assertEqual((code, rest), (1, b""), messages)
-            self.assertIn(words, messages)
+            last = messages.splitlines()[-1]
+            self.assertIn(words, last)
+            self.assertRegex(last, r"^\w*Error: " + (self.place(kind) if kind >= 10 else "") + "move: ")
+
+    def place(self, kind):
+        """Where the program fails for a move of this kind, as a message begins."""
+        lines = self.file.read_text().splitlines()
+        [line] = [number for number, text in enumerate(lines, 1) if f"q.kind == {kind}:" in text or f"case {kind}:" in text]
+        return f"{self.file.name}, line {line}, "
+
+    def test_default(self):
+        """A function that serves several queries may ask for an input that some of them lack."""
+        self.file.write_text(self.file.read_text().replace(*self.asks_for_more))
+        program = self.start()
+        self.assertEqual(self.ask(program, 0, 0, [move(1)])[0][1], True)
+        program.close()
 
     def test_no_decision(self):
         self.file.write_text(self.file.read_text().replace(*self.total_says_yes))
@@ -223,6 +243,7 @@ class Tests:
 class Python(Tests, unittest.TestCase):
     interpreter, name, text = sys.executable, "table.py", PYTHON
     total_says_yes = ('return {"sum"', 'return True or {"sum"')
+    asks_for_more = ("if q.kind == 1: return True", "if q.kind == 1: return getattr(q, 'velocity', 7) == 7")
 
     def test_float32(self):
         sys.path.insert(0, str(LIBRARY))
@@ -240,6 +261,7 @@ class PythonInJson(Python):
 class JavaScript(Tests, unittest.TestCase):
     interpreter, name, text = sys.argv[1] if len(sys.argv) > 1 else None, "table.mjs", JAVASCRIPT
     total_says_yes = ("=> ({ sum", "=> true || ({ sum")
+    asks_for_more = ("case 1: return true", "case 1: return (q.velocity ?? 7) === 7 && String(q) === '[object Object]'")
 
     def setUp(self):
         if self.interpreter is None:

@@ -282,7 +282,7 @@ const Expectation expectations[] = {
      },
      Verdict::violates_contract, Disagreement::wrong_index, "stooge gives edge 1. Exactly, it is 0"},
     {"not_finite", [] { return report(flight(0), hit(4, std::nan(""))); }, Verdict::violates_contract,
-     Disagreement::not_finite, "stooge answers, but location.y is nan. Exactly, it is a hit at time 4."},
+     Disagreement::not_finite, "stooge answers, but location.y is NaN. Exactly, it is a hit at time 4."},
     {"not_unit", [] { return report(flight(0), hit(4, 0, -1.25)); }, Verdict::violates_contract, Disagreement::not_unit,
      "stooge gives a normal of length 1.25"},
     {"negative_time", [] { return report(overlapping(), hit(-1.5e-8)); }, Verdict::violates_contract,

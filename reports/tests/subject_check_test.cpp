@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "corpus/files/source_folder.hpp"
 #include "reports/tests/mistaken_subject.hpp"
 #include "reports/tests/program.hpp"
 #include "reports/triage/examination/subject_check.hpp"
@@ -135,6 +137,73 @@ TEST(SubjectCheck, CountsWhatBroke) {
   EXPECT_NE(checked_text(c, Scalar::float64).find("no boxes today"), std::string::npos);
 }
 
+/// A file beside impl/program/nearmiss.py, in a folder that other users can read.
+std::string program_in(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
+  std::filesystem::create_directory(folder / "program");
+  std::filesystem::copy(source_folder() + "/impl/program/nearmiss.py", folder / "program/nearmiss.py");
+  return folder.file("program/" + name, text);
+}
+
+/// To start it again for each case would take long.
+TEST(SubjectCheck, GivesUpAProgramThatAlwaysBreaks) {
+  if (python().empty()) GTEST_SKIP() << "this system has no Python";
+  const TemporaryFolder folder;
+  const std::string file = program_in(folder, "breaks.py", R"(import nearmiss
+def out_of_order(q):
+    raise ValueError("out of order")
+nearmiss.answer(name="breaks", scalar="double", queries={"sphere_sphere_overlap": out_of_order})
+)");
+  const std::vector<std::string> words{"check-subject", "--command", python() + " " + file, "-s", "breaks"};
+  const Ran ran = nearmiss(words);
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  EXPECT_NE(ran.out.find("0 of 16 cases right, 16 broke the subject; given up, "), std::string::npos) << ran.out;
+  std::vector<std::string> for_programs = words;
+  for_programs.emplace_back("--json");
+  const nlohmann::json j = nlohmann::json::parse(nearmiss(for_programs).out).at("subjects").at("breaks").at(0);
+  EXPECT_EQ(j.at("broke"), 16);
+  EXPECT_EQ(j.at("wrong"), 0);
+  EXPECT_GT(j.at("not_asked"), 40);
+}
+
+/// The query behind the one that breaks is right.
+TEST(SubjectCheck, BlamesNoQueryForTheOneBefore) {
+  if (python().empty()) GTEST_SKIP() << "this system has no Python";
+  const TemporaryFolder folder;
+  const std::string file = program_in(folder, "slip.py", R"(import math
+import nearmiss
+def balls_meet(q):
+    return math.dist(q.sphere1.center, q.sphere2.center) <= q.sphere1.radius + q.sphere2.radius
+def sweep(q):
+    return q.other.radius > 0
+def point_in_ball(q):
+    return math.dist(q.point, q.sphere.center) <= q.sphere.radius
+nearmiss.answer(name="slip", scalar="double", queries={
+    "point_sphere_overlap": point_in_ball, "moving_sphere_sphere": sweep, "sphere_sphere_overlap": balls_meet})
+)");
+  const Ran ran = nearmiss({"check-subject", "--json", "--command", python() + " " + file, "-s", "slip"});
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  std::size_t breaking = 0;
+  const nlohmann::json queries = nlohmann::json::parse(ran.out).at("subjects").at("slip");
+  ASSERT_EQ(queries.size(), 3u);
+  EXPECT_NE(queries.back().at("query"), "moving_sphere_sphere") << "no query is asked behind the one that breaks";
+  for (const nlohmann::json& q : queries) {
+    const bool breaks = q.at("query") == "moving_sphere_sphere";
+    breaking += breaks;
+    EXPECT_EQ(q.at("broke"), breaks ? 16 : 0) << q;
+  }
+  EXPECT_EQ(breaking, 1u);
+}
+
+/// It answers the first cases: it is asked all.
+TEST(SubjectCheck, AsksOnWhereTheFirstCasesAreAnswered) {
+  const CheckedQuery c = check([](Values v) -> Answer {
+    if (v[0] > 0.5) throw std::runtime_error("out of order");
+    return right(v);
+  });
+  EXPECT_GT(c.broke, 0u);
+  EXPECT_EQ(c.not_asked, 0u);
+}
+
 TEST(SubjectCheck, FindsNothingInARightSubject) {
   const CheckedQuery c = check(right);
   EXPECT_GT(c.asked, 64u);  // with the seeds
@@ -147,9 +216,10 @@ TEST(SubjectCheck, IsACommand) {
   const Ran fine = nearmiss({"check-subject", "--subject", "collide-certified-double", "--query", "moving_sphere_box"});
   EXPECT_EQ(fine.exit_code, 0) << fine.err;
   EXPECT_EQ(fine.out, "collide-certified-double: 1 of 1 query answered without a mistake\n");
-  const Ran json = nearmiss({"check-subject", "--json", "--plugin", plugin_file("skim_plugin"), "--subject", "skim"});
-  EXPECT_EQ(json.exit_code, 1) << json.err;
-  const nlohmann::json skim = nlohmann::json::parse(json.out).at("subjects").at("skim");
+  const Ran as_json =
+      nearmiss({"check-subject", "--json", "--plugin", plugin_file("skim_plugin"), "--subject", "skim"});
+  EXPECT_EQ(as_json.exit_code, 1) << as_json.err;
+  const nlohmann::json skim = nlohmann::json::parse(as_json.out).at("subjects").at("skim");
   EXPECT_EQ(skim.size(), 3u);
 }
 

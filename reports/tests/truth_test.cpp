@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-std::vector<json> lines_of(const std::string& text) {
+std::vector<json> records_of(const std::string& text) {
   std::vector<json> lines;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) lines.push_back(json::parse(line));
@@ -35,7 +35,7 @@ std::vector<json> truths(const std::string& cases, std::vector<std::string> opti
   options.push_back(folder.file("cases.jsonl", cases));
   const Ran ran = nearmiss(options);
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  return lines_of(ran.out);
+  return records_of(ran.out);
 }
 
 /// Runs a script of bash in which $nearmiss is the command line.
@@ -161,7 +161,7 @@ TEST(Truth, AnswersALineBeforeItAwaitsTheNext) {
                           "'; do echo \"$line\" >&${COPROC[1]}; IFS= read -r -t 60 -u ${COPROC[0]} answer || exit 3; "
                           "echo \"$answer\"; done");
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  const std::vector<json> t = lines_of(ran.out);
+  const std::vector<json> t = records_of(ran.out);
   ASSERT_EQ(t.size(), 2u);
   EXPECT_TRUE(t[0].at("yes"));
   EXPECT_FALSE(t[1].at("yes"));
@@ -183,7 +183,7 @@ TEST(Truth, EndsAtABadLineAfterTheAnswersBeforeIt) {
     const std::string file = folder.file("bad.jsonl", fmt::format("\n{}\n{}{}\n{}", touching, apart, bad, apart));
     const Ran ran = nearmiss({"truth", "--jobs", "2", file});
     EXPECT_EQ(ran.exit_code, 2) << bad.substr(0, 80);
-    EXPECT_EQ(lines_of(ran.out).size(), 2u) << bad.substr(0, 80);
+    EXPECT_EQ(records_of(ran.out).size(), 2u) << bad.substr(0, 80);
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
     EXPECT_NE(ran.err.find(file + ":5: "), std::string::npos) << ran.err;
     for (const std::string& part : says) EXPECT_NE(ran.err.find(part), std::string::npos) << ran.err;
@@ -206,7 +206,7 @@ TEST(Truth, ReadsFilesInTheirOrderAndStandardInput) {
                                        nearmiss_program(), first, second});
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   std::string decisions;
-  for (const json& t : lines_of(ran.out)) decisions += t.at("yes") ? 'y' : 'n';
+  for (const json& t : records_of(ran.out)) decisions += t.at("yes") ? 'y' : 'n';
   EXPECT_EQ(decisions, "ynyyn");
   const Ran missing = nearmiss({"truth", first, (folder / "third").string()});
   EXPECT_EQ(missing.exit_code, 2);

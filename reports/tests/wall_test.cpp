@@ -53,7 +53,7 @@ class InWay : public testing::TestWithParam<Way> {
     if (!is_ordinary(GetParam()) && geteuid() != 0) GTEST_SKIP() << "this test does not run as the superuser";
   }
   static std::vector<std::string> a_run(const std::vector<std::string>& subject, const fs::path& out) {
-    std::vector<std::string> arguments{"run", "--patience", "0.5"};
+    std::vector<std::string> arguments{"run", "--patience", "20"};
     arguments.insert(arguments.end(), subject.begin(), subject.end());
     arguments.insert(arguments.end(), {"-q", "sphere_sphere_overlap", "-s", "zoo", "-s", "collide-fast-double",
                                        "--cases", "100", "--seed", "11", "--out", out.string()});

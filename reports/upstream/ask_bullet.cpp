@@ -31,8 +31,16 @@ const btTransform $name_pose($turned,
     {Shape::plane, R"(btStaticPlaneShape $name(btVector3($normal), $distance);  // Bullet normalizes the normal
 const btTransform $name_pose = btTransform::getIdentity();
 )"},
-    {Shape::triangle, "const btVector3 v0($v0), v1($v1), v2($v2);\n"},
+    {Shape::triangle, R"(btTriangleShape $name(btVector3($v0), btVector3($v1), btVector3($v2));
+$name.setMargin(0);
+const btTransform $name_pose = btTransform::getIdentity();
+)"},
     {Shape::aabox, "const btVector3 low($min), high($max);\n"},
+};
+
+/// Its callback of rays takes a triangle as three points.
+constexpr ShapeText points_of_triangle[] = {
+    {Shape::triangle, "btVector3 $name[3] = {btVector3($v0), btVector3($v1), btVector3($v2)};\n"},
 };
 
 std::string declared(const NamedShape& o) { return nearmiss::declared(o, shape_texts, "Bullet"); }
@@ -136,8 +144,7 @@ if (got_yes) {
 
 constexpr std::string_view triangle_ray =
     R"(Nearest nearest(btVector3($from), btVector3($end), btTriangleRaycastCallback::kF_FilterBackfaces);
-btVector3 corners[3] = {v0, v1, v2};
-nearest.processTriangle(corners, 0, 0);
+nearest.processTriangle($b, 0, 0);
 got_yes = nearest.hit;
 if (got_yes) {
   got_time = nearest.m_hitFraction * $duration;
@@ -150,12 +157,27 @@ got_yes = btRayAabb(btVector3($from), btVector3($end), low, high, fraction, norm
 if (got_yes) got_time = fraction * $duration;
 )";
 
-constexpr std::string_view sphere_triangle = R"(btTriangleShape triangle($corners);
-triangle.setMargin(0);
-btVector3 point, normal;
+constexpr std::string_view sphere_triangle = R"(btVector3 point, normal;
 btScalar depth = 0, time = 1;
-SphereTriangleDetector detector(&sphere, &triangle, 0);
-got_yes = detector.collide(sphere_pose.getOrigin(), point, normal, depth, time, 0);
+SphereTriangleDetector detector(&$a, &$b, 0);
+got_yes = detector.collide($b_pose.invXform($a_pose.getOrigin()), point, normal, depth, time, 0);
+)";
+constexpr std::string_view distance = R"(btVoronoiSimplexSolver simplex;
+btGjkEpaPenetrationDepthSolver epa;
+btGjkPairDetector detector(&$a, &$b, &simplex, &epa);
+btGjkPairDetector::ClosestPointInput input;
+input.m_transformA = $a_pose, input.m_transformB = $b_pose;
+btPointCollector nearest;
+detector.getClosestPoints(input, nearest, nullptr);
+if (nearest.m_hasResult) {
+  got_distance = nearest.m_distance;
+  const btVector3 on_first = nearest.m_pointInWorld + nearest.m_normalOnBInWorld * nearest.m_distance;
+  for (int k = 0; k < 3; ++k) {
+    got_normal[k] = -nearest.m_normalOnBInWorld[k];  // from the first to the second
+    got_point1[k] = on_first[k];
+    got_point2[k] = nearest.m_pointInWorld[k];
+  }
+}
 )";
 
 Asking point_motion(const CaseShapes& shapes, Scalar scalar) {
@@ -163,7 +185,7 @@ Asking point_motion(const CaseShapes& shapes, Scalar scalar) {
   const Words cast = cast_of(moving_of(shapes), b.shape, scalar);
   if (is_a<Triangle>(b)) {
     return {.helpers = std::string(triangle_helpers),
-            .statements = declared(b) + filled_in(triangle_ray, cast),
+            .statements = nearmiss::declared(b, points_of_triangle, "Bullet") + call(triangle_ray, b, b, cast),
             .members = {"time", "normal"}};
   }
   if (is_a<AABox>(b)) return {.statements = declared(b) + filled_in(aabox_ray, cast), .members = {"time"}};
@@ -176,11 +198,11 @@ Asking asking_of(const Case& question) {
   const CaseShapes shapes(question);
   if (shapes.has("point.x")) return point_motion(shapes, question.scalar);
   const auto [a, b] = sides_of(shapes);
-  if (const auto* t = std::get_if<Triangle<double>>(&b.shape)) {
-    const std::string corners =
-        fmt::format("btVector3({}), btVector3({}), btVector3({})", literals(t->v0), literals(t->v1), literals(t->v2));
-    return {.statements = declared(a) + filled_in(sphere_triangle, {{"corners", corners}})};
+  if (asks_signed_distance(*question.query)) {
+    return {.statements = declared(a) + declared(b) + call(distance, a, b), .members = member_names(*question.query)};
   }
+  if (is_a<Sphere>(a) && is_a<Triangle>(b))
+    return {.statements = declared(a) + declared(b) + call(sphere_triangle, a, b)};
   Asking asking{.helpers = std::string(contact_helpers), .statements = declared(a) + declared(b) + call(overlap, a, b)};
   if (shapes.has("velocity.x")) {
     const Words cast = cast_of(moving_of(shapes), b.shape, question.scalar);
@@ -215,6 +237,8 @@ Asking ask_bullet(const Case& question, const Subject& subject) {
       "#include <BulletCollision/CollisionShapes/btTriangleShape.h>\n"
       "#include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>\n"
       "#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>\n"
+      "#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>\n"
+      "#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>\n"
       "#include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>\n"
       "#include <BulletCollision/NarrowPhaseCollision/btSubSimplexConvexCast.h>\n"
       "#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>\n"
@@ -222,6 +246,7 @@ Asking ask_bullet(const Case& question, const Subject& subject) {
   asking.helpers = fmt::format("static_assert(sizeof(btScalar) == {}, \"a build of Bullet in {}\");\n\n",
                                is_double ? 8 : 4, is_double ? "double" : "float") +
                    asking.helpers;
+  asking.packages = "libbullet-dev";
   asking.build = is_double ? "g++ -std=c++17 -DBT_USE_DOUBLE_PRECISION -I/usr/include/bullet test.cpp "
                              "-lBulletCollision-float64 -lLinearMath-float64"
                            : "g++ -std=c++17 -I/usr/include/bullet test.cpp -lBulletCollision -lLinearMath";

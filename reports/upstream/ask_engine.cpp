@@ -223,6 +223,21 @@ std::string cpp_function_for(const Case& question, const Engine& engine, const s
   refuse(question, engine);
 }
 
+/// Those of its group in cmake/packages.txt.
+std::string packages_of(const Engine& engine) {
+  const fs::path sources = engine.sources;
+  const std::string all = read_file(sources / "../../../cmake/packages.txt");
+  const std::string group = "[" + sources.filename().string() + "]\n";
+  std::string packages;
+  const std::size_t start = all.find(group);
+  if (start == std::string::npos) return packages;
+  std::istringstream lines(all.substr(start + group.size()));
+  for (std::string line; std::getline(lines, line) && !line.starts_with('[');) {
+    if (!line.empty() && !line.starts_with('#')) packages += (packages.empty() ? "" : " ") + line;
+  }
+  return packages;
+}
+
 Asking in_cpp(const Case& question, const Engine& engine) {
   const fs::path sources = engine.sources;
   const std::vector<SourceUnit> units = units_of(read_file(sources / "subject.cpp"), Language::cpp);
@@ -250,6 +265,7 @@ Asking in_cpp(const Case& question, const Engine& engine) {
   std::string flags = read_file(sources / "flags.txt");
   flags.erase(flags.find_last_not_of('\n') + 1);
   asking.build = fmt::format("g++ -std=c++20 test.cpp {}", flags);
+  asking.packages = packages_of(engine);
   return asking;
 }
 

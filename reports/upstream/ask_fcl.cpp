@@ -29,7 +29,7 @@ $turned)",
      R"(const fcl::Halfspaced $name(fcl::Vector3d($normal), $minus_offset);  // behind the plane; FCL normalizes the normal
 const fcl::Transform3d $name_pose = fcl::Transform3d::Identity();
 )"},
-    {Shape::triangle, R"(const fcl::Vector3d v0($v0), v1($v1), v2($v2);
+    {Shape::triangle, R"(const fcl::Vector3d $name[3] = {fcl::Vector3d($v0), fcl::Vector3d($v1), fcl::Vector3d($v2)};
 )"},
 };
 
@@ -74,13 +74,22 @@ fcl::DistanceResultd result;
 fcl::distance(&$a, $a_pose, &$b, $b_pose, request, result);
 )";
 constexpr std::string_view depth_of_distance = "got_depth = -result.min_distance;\ngot_yes = got_depth >= 0;\n";
-constexpr std::string_view distance_itself = "got_distance = result.min_distance;\ngot_yes = true;\n";
+constexpr std::string_view distance_itself = "got_distance = result.min_distance;\n";
 constexpr std::string_view distance_of_boxes =
     "if (!got_yes) got_depth = NAN;  // a distance is not the gap along an axis\n";
 
 constexpr std::string_view triangle =
-    "got_yes = fcl::detail::$function<double>().shapeTriangleIntersect($a, $a_pose, v0, v1, v2, nullptr, nullptr, "
+    "got_yes = fcl::detail::$function<double>().shapeTriangleIntersect($a, $a_pose, $b[0], $b[1], $b[2], nullptr, "
+    "nullptr, "
     "nullptr);\n";
+constexpr std::string_view distance_of_triangles = R"(fcl::Vector3d on_first, on_second;
+got_distance = fcl::detail::TriangleDistanced::triDistance($a, $b, on_first, on_second);
+)";
+constexpr std::string_view distance_of_triangle =
+    R"(fcl::detail::$function<double>().shapeTriangleDistance($a, $a_pose, $b[0], $b[1], $b[2], &got_distance);
+)";
+constexpr std::string_view depth_unknown =
+    "if (!(got_distance > 0)) got_distance = NAN;  // FCL tells no depth of a triangle\n";
 
 constexpr std::string_view sweep = R"(const double duration = $horizon;  // carries the sphere past
 fcl::ContinuousCollisionRequestd request;
@@ -124,17 +133,23 @@ Asking ask_fcl(const Case& question, const Subject& subject) {
       "#include <fcl/narrowphase/continuous_collision.h>\n"
       "#include <fcl/narrowphase/detail/gjk_solver_indep.h>\n"
       "#include <fcl/narrowphase/detail/gjk_solver_libccd.h>\n"
+      "#include <fcl/narrowphase/detail/primitive_shape_algorithm/triangle_distance.h>\n"
       "#include <fcl/narrowphase/distance.h>\n";
-  asking.helpers = at_helper;
+  asking.packages = "libfcl-dev libgtest-dev pkg-config";
   asking.build = "g++ -std=c++17 test.cpp $(pkg-config --cflags --libs fcl eigen3) -lgtest -lpthread";
   const Words by{{"solver", solver},
                  {"function", libccd ? "GJKSolver_libccd" : "GJKSolver_indep"},
                  {"turned_contact", is_a<Plane>(target_of(shapes)) ? "-c" : "c"}};
   const auto [a, b] = sides_of(shapes);
   asking.statements = declared(a) + declared(b);
+  if (!is_a<Triangle>(a)) asking.helpers = at_helper;
   if (shapes.has("velocity.x") && !shapes.has("limit")) {
     asking.statements += motion(moving_of(shapes), a, b, solver, subject.name != "fcl-conservative-advancement");
     asking.members = {"time"};
+  } else if (subject.name.starts_with("fcl-distance") && is_a<Triangle>(b)) {
+    asking.statements += call(is_a<Triangle>(a) ? distance_of_triangles : distance_of_triangle, a, b, by);
+    asking.statements += depth_unknown;
+    asking.members = {"distance"};
   } else if (subject.name.starts_with("fcl-distance")) {
     const bool is_depth = question.query->kind == Kind::depth;
     asking.statements += call(distance, a, b, by);

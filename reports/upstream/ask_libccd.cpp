@@ -82,6 +82,7 @@ void center(const void* shape, ccd_vec3_t* point) {
 
 constexpr ShapeText shape_texts[] = {
     {Shape::sphere, "const Convex $name = {1, {{$center}}, {}, {}, $radius};\n"},
+    {Shape::segment, "const Convex $name = {2, {{$v0}, {$v1}}, {}, {}, 0.0};\n"},
     {Shape::triangle, "const Convex $name = {3, {{$v0}, {$v1}, {$v2}}, {}, {}, 0.0};\n"},
     {Shape::capsule, "const Convex $name = {2, {{$p0}, {$p1}}, {}, {}, $radius};\n"},
     {Shape::box, R"(const Convex $name = {1,
@@ -129,6 +130,7 @@ Asking ask_libccd(const Case& question, const Subject& subject) {
   asking.helpers = std::string(vectors) + std::string(convex);
   if (is_a<AABox>(a)) asking.helpers += corners;
   asking.helpers += callbacks;
+  asking.packages = "libccd-dev";
   asking.build = "g++ -std=c++17 test.cpp -lccd";
   const std::string function = std::string(gjk ? "ccdGJK" : "ccdMPR") + (is_depth ? "Penetration" : "Intersect");
   const auto type_of = [](const NamedShape& o) { return is_a<AABox>(o) ? "Corners" : "Convex"; };

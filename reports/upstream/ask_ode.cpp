@@ -121,8 +121,32 @@ Asking ray_from_outside(const CaseShapes& shapes, const NamedShape& b) {
           .members = {"time", "location", "normal"}};
 }
 
+constexpr std::string_view distance_of_segments = R"(const dVector3 a0 = {$a0}, a1 = {$a1}, b0 = {$b0}, b1 = {$b1};
+dVector3 on_a, on_b;
+dClosestLineSegmentPoints(a0, a1, b0, b1, on_a, on_b);
+for (int k = 0; k < 3; ++k) got_point1[k] = on_a[k], got_point2[k] = on_b[k];
+)";
+
+Asking signed_distance(const CaseShapes& shapes) {
+  if (shapes.has("point.x")) {
+    const NamedShape b = target_of(shapes);
+    return {.statements = declared(b) + fmt::format("got_distance = -dGeom{}PointDepth({}, {});\n",
+                                                    is_a<Sphere>(b) ? "Sphere" : "Capsule", b.name,
+                                                    literals(shapes.vector("point"))),
+            .members = {"distance"}};
+  }
+  const auto [a, b] = sides_of(shapes);
+  const auto &first = std::get<Segment<double>>(a.shape), &second = std::get<Segment<double>>(b.shape);
+  return {.statements = filled_in(distance_of_segments, {{"a0", literals(first.v0)},
+                                                         {"a1", literals(first.v1)},
+                                                         {"b0", literals(second.v0)},
+                                                         {"b1", literals(second.v1)}}),
+          .members = {"point1", "point2"}};
+}
+
 Asking asking_of(const Case& question) {
   const CaseShapes shapes(question);
+  if (asks_signed_distance(*question.query)) return signed_distance(shapes);
   if (shapes.has("point.x")) {
     const NamedShape b = target_of(shapes);
     return is_a<Sphere>(b) ? sphere_ray(shapes, b) : ray_from_outside(shapes, b);
@@ -145,6 +169,7 @@ Asking ask_ode(const Case& question, const Subject&) {
   asking.includes = "#include <ode/ode.h>\n";
   asking.helpers = "static_assert(sizeof(dReal) == 8, \"a build of ODE in double\");\n\n" + asking.helpers;
   asking.statements = "dInitODE2(0);\n" + asking.statements + "dCloseODE();\n";
+  asking.packages = "libode-dev pkg-config";
   asking.build = "g++ -std=c++17 test.cpp $(pkg-config --cflags --libs ode)";
   return asking;
 }

@@ -93,6 +93,9 @@ ShapeWords words_of(const collide::Plane<double>& p) {
            {"minus_offset", literal(-p.offset)},
            {"distance", literal(-p.offset / adapters::length(p.normal))}}};
 }
+ShapeWords words_of(const collide::Segment<double>& s) {
+  return {Shape::segment, {{"v0", literals(s.v0)}, {"v1", literals(s.v1)}}};
+}
 ShapeWords words_of(const collide::Triangle<double>& t) {
   return {Shape::triangle, {{"v0", literals(t.v0)}, {"v1", literals(t.v1)}, {"v2", literals(t.v2)}}};
 }
@@ -171,6 +174,11 @@ std::string listed_inputs(const Case& question) {
   for (std::size_t i = 0; i < question.values.size(); ++i)
     text += fmt::format("    {}, /* {} */\n", literal(question.values[i]), question.name(i));
   return text;
+}
+
+bool asks_signed_distance(const Query& query) {
+  const std::vector<std::string> names = member_names(query);
+  return names == std::vector<std::string>{"distance", "normal", "point1", "point2"};
 }
 
 std::vector<std::string> member_names(const Query& query) {

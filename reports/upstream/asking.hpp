@@ -26,6 +26,7 @@ struct Asking {
   std::string statements{};            ///< lines without indentation
   std::vector<std::string> members{};  ///< the members of an answer that they may set: "depth"
   std::string build{};                 ///< the compiler's command line for the file "test.cpp" or "test.c"
+  std::string packages{};              ///< of Debian, with the library and what the test needs; empty: none
   bool may_leave_out = false;          ///< whether a right answer may lack some of these members
 };
 
@@ -77,6 +78,8 @@ std::string expression_of(const std::string& field);
 std::string listed_inputs(const Case& question);
 /// The names of all members of an answer.
 std::vector<std::string> member_names(const Query& query);
+/// Whether the answer is a signed distance with its normal and points.
+bool asks_signed_distance(const Query& query);
 /// The statements that take what `answer`, a nearmiss_answer, gives; in C with the flags of the members.
 std::string take_answer(const Query& query, bool in_c);
 /// The name of the variable of an answer's member: "got_corners_2_point".

@@ -302,7 +302,8 @@ int main(int argc, char** argv) {
     const std::string empty = in_c_ ? " *\n" : "//\n";
     return (in_c_ ? "/*\n" : "") + paragraph(headline(r_) + ".") + empty + paragraph(explanation(r_)) +
            paragraph(allowance_text(r_, right_) + ".") + empty +
-           paragraph(fmt::format("Seen with {} ({}). {}:", r_.version, r_.subject,
+           paragraph(fmt::format("Seen with {} ({}){}. {}:", r_.version, r_.subject,
+                                 asking_.packages.empty() ? "" : "; packages of Debian: " + asking_.packages,
                                  in_javascript_ ? "Run in the folder of this file" : "Build")) +
            (in_c_ ? " *   " : "//   ") + in_c_comment(asking_.build) + "\n" +
            paragraph(fmt::format("Written by Nearmiss {}.", version())) + (in_c_ ? " */\n" : "");
@@ -392,6 +393,7 @@ EmittedTest emit_test(const Report& r, const Subject& subject, const std::string
   constexpr std::string_view runner = "node --test";  // of which another process runs the test
   if (const std::size_t at = asking.build.find(runner); is_late(r) && at != std::string::npos)
     asking.build.replace(at, runner.size(), fmt::format("timeout {} node", patience));
+  if (extension != "mjs") asking.build += " -o finding";
   if (!file.empty()) asking.build.replace(asking.build.find(usual), usual.size(), shell_quoted(file));
   const std::vector<std::size_t> declared = declared_members(r, asking), compared = compared_members(r, asking);
   const RightAnswers right = right_answers(r.question, r.answer, r.finding, r.standard, r.truth, compared);

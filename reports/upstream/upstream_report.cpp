@@ -14,8 +14,8 @@
 #include "reports/findings/report_text.hpp"
 #include "reports/findings/text.hpp"
 #include "reports/findings/version.hpp"
+#include "reports/picture/text_picture.hpp"
 #include "reports/upstream/emit_test.hpp"
-#include "reports/upstream/text_picture.hpp"
 
 namespace nearmiss {
 
@@ -42,8 +42,11 @@ std::string environment(const Report& r, const Subject& subject) {
   return text + fmt::format("| found by | Nearmiss {} |\n", version());
 }
 
-std::string scene(const Report& r) {
-  std::string text = markdown_block(pretty_json(case_to_json(r.question)["inputs"]), "json");
+std::string scene(const Report& r, const std::string& image) {
+  std::string text =
+      image.empty() ? ""
+                    : fmt::format("![The scene, the exact answer and the given one](<{}>)\n\n", in_markdown(image));
+  text += markdown_block(pretty_json(case_to_json(r.question)["inputs"]), "json");
   const std::string picture = text_picture(r);
   return picture.empty() ? text : text + "\n" + markdown_block(picture, "text");
 }
@@ -117,12 +120,12 @@ std::string answer(const Report& r) {
 
 }  // namespace
 
-std::string upstream_report(const Report& r, const Subject& subject) {
+std::string upstream_report(const Report& r, const Subject& subject, const std::string& picture) {
   if (!is_bad(r.finding)) throw BadInput(fmt::format("{}: nothing is to be reported of its answer", subject.name));
   const EmittedTest test = emit_test(r, subject);
   std::string text = fmt::format("# {}\n\n{}\n\n", title(r), in_markdown(without_folders(explanation(r))));
   text += environment(r, subject) + "\n";
-  text += "## The scene\n\n" + scene(r) + "\n";
+  text += "## The scene\n\n" + scene(r, picture) + "\n";
   text += "## The answer\n\n" + answer(r) + "\n";
   text += "## What is right\n\n" + truth(r) + amount(r) + "\n";
   text += fmt::format("## A program that shows it\n\n{}\n{}\n", markdown_block(without_folders(test.build), "sh"),

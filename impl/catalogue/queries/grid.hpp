@@ -21,10 +21,11 @@ namespace grid {
 // NOLINTEND(bugprone-macro-parentheses)
 
 constexpr bool has_size(std::string_view shape) { return shape == "sphere" || shape == "capsule" || shape == "box"; }
-/// With a radius, a point of the answer follows its normal; parallel segments have many nearest points.
+constexpr bool has_edges(std::string_view shape) { return shape != "point" && shape != "sphere"; }
+/// With a radius, a point of the answer follows its normal; parallel edges have many nearest points.
 constexpr Ties ties_of(std::string_view first, std::string_view second) {
-  const bool are_segments = first == "segment" && second == "segment";
-  return has_size(first) || has_size(second) || are_segments ? Ties{Tie::position, Tie::cone} : Ties{Tie::cone};
+  const bool may_be_parallel = has_edges(first) && has_edges(second);
+  return has_size(first) || has_size(second) || may_be_parallel ? Ties{Tie::position, Tie::cone} : Ties{Tie::cone};
 }
 constexpr Role role_of(std::string_view shape) { return shape == "point" ? Role::position : Role::inherited; }
 
@@ -73,7 +74,8 @@ constexpr Link as_point(QueryId to, std::array<Link::Renamed, 3> renamed) {
 }
 
 /// The links of a signed distance, by its shapes.
-constexpr std::span<const Link> distance_of_point_segment{}, distance_of_segment_segment{};
+constexpr std::span<const Link> distance_of_point_segment{}, distance_of_segment_segment{},
+    distance_of_point_triangle{};
 constexpr Link distance_of_point_sphere[] = {decided_by(query_id("point_sphere_overlap"))};
 constexpr Link distance_of_point_capsule[] = {
     decided_by(query_id("point_capsule_overlap")),
@@ -95,6 +97,26 @@ constexpr Link distance_of_capsule_capsule[] = {
     decided_by(query_id("capsule_capsule_overlap")),
     as_sphere(query_id("sphere_capsule_signed_distance"),
               {{{"sphere.center", "capsule1.p0"}, {"sphere.radius", "capsule1.radius"}, {"capsule", "capsule2"}}})};
+constexpr Link distance_of_sphere_triangle[] = {
+    decided_by(query_id("sphere_triangle_overlap")),
+    as_point(query_id("point_triangle_signed_distance"), {{{"point", "sphere.center"}}})};
+constexpr Link distance_of_segment_triangle[] = {decided_by(query_id("segment_triangle_overlap"))};
+constexpr Link distance_of_capsule_triangle[] = {
+    decided_by(query_id("capsule_triangle_overlap")),
+    as_sphere(query_id("sphere_triangle_signed_distance"),
+              {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}}})};
+constexpr Link distance_of_triangle_triangle[] = {decided_by(query_id("triangle_triangle_overlap"))};
+constexpr Link distance_of_point_box[] = {decided_by(query_id("point_box_overlap"))};
+constexpr Link distance_of_sphere_box[] = {
+    decided_by(query_id("sphere_box_overlap")),
+    as_point(query_id("point_box_signed_distance"), {{{"point", "sphere.center"}}})};
+constexpr Link distance_of_segment_box[] = {decided_by(query_id("segment_box_overlap"))};
+constexpr Link distance_of_capsule_box[] = {
+    decided_by(query_id("capsule_box_overlap")),
+    as_sphere(query_id("sphere_box_signed_distance"),
+              {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}}})};
+constexpr Link distance_of_triangle_box[] = {decided_by(query_id("triangle_box_overlap"))};
+constexpr Link distance_of_box_box[] = {decided_by(query_id("box_box_overlap"))};
 
 }  // namespace grid
 

@@ -72,12 +72,31 @@ int sphere_segment_overlap(const double* in, std::size_t, nearmiss_answer* answe
 int sphere_triangle_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
   return said(gts_point_triangle_distance(Point(in), Triangle(in + 4)) <= in[3], answer);
 }
+void write(const GtsPoint* p, double* to) { to[0] = p->x, to[1] = p->y, to[2] = p->z; }
+int point_segment_signed_distance(const double* in, std::size_t, nearmiss_answer* answer) {
+  const Point p(in), closest(in);
+  const Segment s(in + 3);
+  answer->yes = 1, answer->given = 0b1110000001;  // the distance and the second point
+  answer->values[0] = gts_point_segment_distance(p, s);
+  gts_point_segment_closest(p, s, closest);
+  write(closest, answer->values + 7);
+  return NEARMISS_ANSWERED;
+}
+int closest_point_segment(const double* in, std::size_t, nearmiss_answer* answer) {
+  const Point closest(in + 6);
+  gts_point_segment_closest(Point(in + 6), Segment(in), closest);
+  answer->yes = 1;
+  write(closest, answer->values);
+  return NEARMISS_ANSWERED;
+}
 
 const nearmiss_offer offers[] = {
     {"segment_triangle_overlap", 15, 0, nullptr, nullptr, segment_triangle_overlap, 0},
     {"aabox_triangle_overlap", 15, 0, nullptr, nullptr, aabox_triangle_overlap, 0},
     {"sphere_segment_overlap", 10, 0, "gts_point_segment_distance", nullptr, sphere_segment_overlap, 0},
     {"sphere_triangle_overlap", 13, 0, "gts_point_triangle_distance", nullptr, sphere_triangle_overlap, 0},
+    {"closest_point_segment", 9, 3, nullptr, nullptr, closest_point_segment, 0},
+    {"point_segment_signed_distance", 9, 10, nullptr, nullptr, point_segment_signed_distance, 0},
 };
 const nearmiss_plugin gts = {NEARMISS_PLUGIN_VERSION,        SUBJECT, "GTS 0.7.6", NEARMISS_DOUBLE,
                              sizeof offers / sizeof *offers, offers};

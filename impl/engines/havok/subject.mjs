@@ -69,30 +69,42 @@ function cast({ sphere: moving, velocity }, target, [at, radius]) {
   const hit = against(target(), () => H.HP_World_ShapeCastWithCollector(world, hits, [shape, still, moving.center, end, triggers, noBody]), H.HP_QueryCollector_GetShapeCastResult);
   return hit && { time: hit[0] * horizon, location: hit[2][place], normal: hit[2][normal] };
 }
-/** The proximity of two shapes that touch or overlap. */
+/** The proximity of two shapes within that distance: the distance and two points of contact. */
+const proximity = (a, b, most = 0) =>
+  against(b, () => H.HP_World_ShapeProximityWithCollector(world, hits, [a.shape, a.at, a.turn, most, triggers, noBody]), H.HP_QueryCollector_GetShapeProximityResult);
 function overlap(a, b) {
-  const hit = against(b, () => H.HP_World_ShapeProximityWithCollector(world, hits, [a.shape, a.at, a.turn, 0, triggers, noBody]), H.HP_QueryCollector_GetShapeProximityResult);
+  const hit = proximity(a, b);
   return hit && hit[0] <= 0 && { depth: -hit[0], normal: scaled(hit[2][normal], -1) };
 }
 const meet = (a, b) => !!overlap(a, b);
+const pointProximity = (point, target, most = 0) =>
+  against(target, () => H.HP_World_PointProximityWithCollector(world, hits, [point, most, everything, triggers, noBody]), H.HP_QueryCollector_GetPointProximityResult);
 function contains(target, point) {
-  const hit = against(target, () => H.HP_World_PointProximityWithCollector(world, hits, [point, 0, everything, triggers, noBody]), H.HP_QueryCollector_GetPointProximityResult);
+  const hit = pointProximity(point, target);
   return hit !== null && hit[0] <= 0;
 }
-const aroundTriangle = ({ v0, v1, v2 }) => [v0, Math.max(length(minus(v1, v0)), length(minus(v2, v0)))];
+/** The signed distance of two shapes, or of a point and a shape; the nearest points are no further apart than their places. */
+function distanceOf(ask, a, b, at) {
+  const hit = ask(a, b, 2 * length(minus(b.at, at)));
+  if (!hit) return new Cannot("the proximity finds no nearest points");
+  const contact = hit.at(-1);  // of the body in the world
+  return { distance: hit[0], normal: scaled(contact[normal], -1), point2: contact[place] };
+}
+const distance = (a, b) => distanceOf(proximity, a, b, a.at);
+const pointDistance = (point, b) => distanceOf(pointProximity, point, b, point);
 
 // Babylon's page of the shape cast query: 'Result will not be correct for intersecting shapes'.
 const requires = ["starts outside"];
-const gives = ["depth", "normal"];
+const gives = ["depth", "normal"], distances = ["distance", "normal", "point2"];
 const queries = {
   moving_point_sphere: (q) => ray(q, () => sphere(q.sphere), around.sphere(q.sphere)),
   moving_point_box: (q) => ray(q, () => box(q.box), around.box(q.box)),
   moving_point_capsule: (q) => ray(q, () => capsule(q.capsule), around.capsule(q.capsule)),
-  moving_point_triangle: { answer: (q) => ray(q, () => triangle(q.triangle), aroundTriangle(q.triangle)), gives: ["time", "location", "normal"] },
+  moving_point_triangle: { answer: (q) => ray(q, () => triangle(q.triangle), around.triangle(q.triangle)), gives: ["time", "location", "normal"] },
   moving_sphere_sphere: { answer: (q) => cast(q, () => sphere(q.fixed), around.sphere(q.fixed)), requires },
   moving_sphere_box: { answer: (q) => cast(q, () => box(q.box), around.box(q.box)), requires },
   moving_sphere_capsule: { answer: (q) => cast(q, () => capsule(q.capsule), around.capsule(q.capsule)), requires },
-  moving_sphere_triangle: { answer: (q) => cast(q, () => triangle(q.triangle), aroundTriangle(q.triangle)), gives: ["time", "location", "normal"], requires },
+  moving_sphere_triangle: { answer: (q) => cast(q, () => triangle(q.triangle), around.triangle(q.triangle)), gives: ["time", "location", "normal"], requires },
   sphere_sphere_overlap: (q) => meet(sphere(q.sphere1), sphere(q.sphere2)),
   sphere_box_overlap: (q) => meet(sphere(q.sphere), box(q.box)),
   sphere_triangle_overlap: (q) => meet(sphere(q.sphere), triangle(q.triangle)),
@@ -113,6 +125,11 @@ const queries = {
   sphere_sphere_penetration: { answer: (q) => overlap(sphere(q.sphere1), sphere(q.sphere2)), gives },
   sphere_box_penetration: { answer: (q) => overlap(sphere(q.sphere), box(q.box)), gives },
   box_box_penetration: { answer: (q) => overlap(box(q.box1), box(q.box2)), gives },
+  point_sphere_signed_distance: { answer: (q) => pointDistance(q.point, sphere(q.sphere)), gives: distances },
+  point_capsule_signed_distance: { answer: (q) => pointDistance(q.point, capsule(q.capsule)), gives: distances },
+  sphere_sphere_signed_distance: { answer: (q) => distance(sphere(q.sphere1), sphere(q.sphere2)), gives: distances },
+  sphere_capsule_signed_distance: { answer: (q) => distance(sphere(q.sphere), capsule(q.capsule)), gives: distances },
+  capsule_capsule_signed_distance: { answer: (q) => distance(capsule(q.capsule1), capsule(q.capsule2)), gives: distances },
 };
 const released = Object.entries(queries).map(([query, offer]) =>
   [query, typeof offer === "function" ? releasing(offer) : { ...offer, answer: releasing(offer.answer) }]);

@@ -1,7 +1,7 @@
 // Jolt: rays, collisions and casts of its shapes, by TransformedShape. The convex radius of boxes is zero. The setting strict
 // takes the least tolerances that floats can have, and the deepest point of bodies that overlap at the start of a cast.
 import { Cannot } from "../../program/nearmiss.mjs";
-import { answerBy, around, declared, exactWay, length, load, minus, plus, scaled, setting, timeToPass, timeToPlane, turned, turnOf, unit } from "../engine.mjs";
+import { answerBy, around, declared, exactWay, impactAt, length, load, minus, plus, scaled, setting, timeToPass, timeToPlane, turned, turnOf, unit } from "../engine.mjs";
 
 const { version, library } = await load("jolt-physics");
 const J = await library.default();
@@ -47,16 +47,29 @@ const placed = ({ shape, at, turn }) => {
 const anyShape = new J.ShapeFilter(), zero = new J.RVec3(0, 0, 0);
 const isStrict = setting === "strict", leastTolerance = 2 ** -23;
 const settled = (how) => (isStrict ? Object.assign(how, { mCollisionTolerance: leastTolerance, mPenetrationTolerance: leastTolerance }) : how);
-function ray({ point, velocity }, make, [center, radius]) {
-  const horizon = timeToPass(point, velocity, center, radius);
-  if (horizon === 0) return new Cannot("a ray has two ends");
+/** Where a ray from a point along a way meets what `make` makes, from 0 to 1, or more where it does not: of a triangle both sides. */
+function fractionOf(point, way, make) {
   const b = make(), hit = keep(new J.RayCastResult());
-  hit.mFraction = 1 + 1e-6;
-  placed(b).CastRay(keep(new J.RRayCast(rvec(point), vec(scaled(velocity, horizon)))), hit);
+  placed(b).CastRay(keep(new J.RRayCast(rvec(point), vec(way))), hit);
   const fraction = hit.mFraction;
   b.shape.Release();
-  return freeing(fraction <= 1 && { time: fraction * horizon });
+  return freeing(fraction);
 }
+/** The same with the usual settings of rays, which ignore the backs of triangles. */
+function fractionAtFront(point, way, make) {
+  const b = make(), collector = keep(new J.CastRayClosestHitCollisionCollector());
+  placed(b).CastRay(keep(new J.RRayCast(rvec(point), vec(way))), keep(new J.RayCastSettings()), collector, anyShape);
+  const fraction = collector.HadHit() ? collector.mHit.mFraction : 2;
+  b.shape.Release();
+  return freeing(fraction);
+}
+/** A ray to what `make` makes, which it has passed at the time `horizon`. */
+function ray({ point, velocity }, make, horizon, ask = fractionOf) {
+  if (horizon === 0) return new Cannot("a ray has two ends");
+  const fraction = ask(point, scaled(velocity, horizon), make);
+  return fraction <= 1 && impactAt(fraction * horizon);
+}
+const rayTo = (make, shape, ask) => (q) => ray(q, () => make(q[shape]), timeToPass(q.point, q.velocity, ...around[shape](q[shape])), ask);
 /** A cast of the moving sphere against what `make` makes, which it has passed at the time `horizon`. */
 function cast({ sphere: moving, velocity }, make, horizon) {
   if (horizon === 0) return new Cannot("a cast has two ends");
@@ -68,9 +81,10 @@ function cast({ sphere: moving, velocity }, make, horizon) {
   how.mReturnDeepestPoint = isStrict;
   how.mBackFaceModeConvex = J.EBackFaceMode_CollideWithBackFaces;  // also hits where it starts inside and leaves
   placed(b).CastShape(way, how, zero, collector, anyShape);
-  const { mFraction, mContactPointOn2, mPenetrationAxis } = collector.mHit, time = mFraction * horizon;
+  const { mFraction, mContactPointOn2, mPenetrationAxis } = collector.mHit;
   // Where they overlap at the start it computes the deepest point only on request.
-  const hit = collector.HadHit() && (mFraction > 0 || isStrict ? { time, location: list(mContactPointOn2), normal: scaled(unit(list(mPenetrationAxis)), -1) } : { time });
+  const contact = (mFraction > 0 || isStrict) && { location: list(mContactPointOn2), normal: scaled(unit(list(mPenetrationAxis)), -1) };
+  const hit = collector.HadHit() && impactAt(mFraction * horizon, contact);
   a.shape.Release(), b.shape.Release();
   return freeing(hit);
 }
@@ -78,17 +92,26 @@ const castTo = (make, shape, member = shape) => (q) => {
   const [center, radius] = around[shape](q[member]);
   return cast(q, () => make(q[member]), timeToPass(q.sphere.center, q.velocity, center, radius + q.sphere.radius));
 };
-function collision(a, b) {
+/** What `read` makes of the deepest hit of two shapes, or of the nearest points within `reach`; false without a hit. */
+function collision(a, b, read = ({ mPenetrationDepth, mPenetrationAxis }) => ({ depth: mPenetrationDepth, normal: unit(list(mPenetrationAxis)) }), reach = 0) {
   const how = settled(keep(new J.CollideShapeSettings())), collector = keep(new J.CollideShapeClosestHitCollisionCollector());
+  how.mMaxSeparationDistance = reach;
   how.mBackFaceMode = J.EBackFaceMode_CollideWithBackFaces;  // triangles have two sides
   a.shape.AddRef();
   const pose = J.RMat44.prototype.sRotationTranslation(quat(a.turn), rvec(a.at));
   placed(b).CollideShape(a.shape, vec([1, 1, 1]), pose, how, zero, collector, anyShape);
-  const hit = collector.HadHit() && { depth: collector.mHit.mPenetrationDepth, normal: unit(list(collector.mHit.mPenetrationAxis)) };
+  const hit = collector.HadHit() && read(collector.mHit);
   a.shape.Release(), b.shape.Release();
   return freeing(hit);
 }
 const meet = (a, b) => collision(a, b) !== false;
+/** The signed distance of two shapes, whose nearest points are no further apart than their places. */
+function distance(a, b) {
+  const found = collision(a, b, ({ mPenetrationDepth, mPenetrationAxis, mContactPointOn1, mContactPointOn2 }) => ({
+    distance: -mPenetrationDepth, normal: unit(list(mPenetrationAxis)), point1: list(mContactPointOn1), point2: list(mContactPointOn2),
+  }), 2 * length(minus(b.at, a.at)));
+  return found || new Cannot("CollideShape finds no nearest points");
+}
 function contains(b, point) {
   const collector = keep(new J.CollidePointAnyHitCollisionCollector());
   placed(b).CollidePoint(rvec(point), collector, anyShape);
@@ -96,16 +119,12 @@ function contains(b, point) {
   b.shape.Release();
   return freeing(found);
 }
-/** Whether a segment meets a solid shape, by a ray from its one end to the other. */
+/** Whether a segment meets what `make` makes, by a ray from its one end to the other. */
 function reaches({ v0, v1 }, make) {
   const way = exactWay(v0, v1);
   if (!way) return new Cannot("a ray has a start and a way, and floats do not hold the way between the ends");
   if (!(length(way) > 0)) return new Cannot("a ray has two ends");
-  const b = make(), hit = keep(new J.RayCastResult());
-  placed(b).CastRay(keep(new J.RRayCast(rvec(v0), vec(way))), hit);
-  const fraction = hit.mFraction;
-  b.shape.Release();
-  return freeing(fraction <= 1);
+  return fractionOf(v0, way, make) <= 1;
 }
 
 const solid = [declared("start in contact is a hit",
@@ -115,12 +134,15 @@ const rays = { gives: ["time"], declares: solid }, gives = ["depth", "normal"];
 answerBy({
   name: "jolt", version: `jolt-physics ${version}`, scalar: "float",
   queries: {
-    moving_point_sphere: { answer: (q) => ray(q, () => sphere(q.sphere), around.sphere(q.sphere)), ...rays },
-    moving_point_box: { answer: (q) => ray(q, () => box(q.box), around.box(q.box)), ...rays },
-    moving_point_capsule: { answer: (q) => ray(q, () => capsule(q.capsule), around.capsule(q.capsule)), ...rays },
+    moving_point_sphere: { answer: rayTo(sphere, "sphere"), ...rays },
+    moving_point_box: { answer: rayTo(box, "box"), ...rays },
+    moving_point_capsule: { answer: rayTo(capsule, "capsule"), ...rays },
+    moving_point_plane: { answer: (q) => ray(q, () => plane(q.plane), timeToPlane(q.point, q.velocity, q.plane)), gives: ["time"], declares: halfSpace },
+    moving_point_triangle: { answer: rayTo(triangle, "triangle", fractionAtFront), gives: ["time"] },
     moving_sphere_sphere: castTo(sphere, "sphere", "fixed"),
     moving_sphere_box: castTo(box, "box"),
     moving_sphere_capsule: castTo(capsule, "capsule"),
+    moving_sphere_triangle: { answer: castTo(triangle, "triangle"), gives: ["time", "location", "normal"] },
     moving_sphere_plane: {
       answer: (q) => cast(q, () => plane(q.plane), timeToPlane(q.sphere.center, q.velocity, q.plane, q.sphere.radius)), declares: halfSpace,
     },
@@ -132,6 +154,7 @@ answerBy({
     point_box_overlap: (q) => contains(box(q.box), q.point),
     sphere_segment_overlap: (q) => reaches(q.segment, () => sphere(q.sphere)),
     segment_capsule_overlap: (q) => reaches(q.segment, () => capsule(q.capsule)),
+    segment_triangle_overlap: (q) => reaches(q.segment, () => triangle(q.triangle)),
     segment_box_overlap: (q) => reaches(q.segment, () => box(q.box)),
     sphere_capsule_overlap: (q) => meet(sphere(q.sphere), capsule(q.capsule)),
     capsule_capsule_overlap: (q) => meet(capsule(q.capsule1), capsule(q.capsule2)),
@@ -148,5 +171,8 @@ answerBy({
       }, gives,
     },
     box_box_penetration: { answer: (q) => collision(box(q.box1), box(q.box2)), gives },
+    sphere_sphere_signed_distance: (q) => distance(sphere(q.sphere1), sphere(q.sphere2)),
+    sphere_capsule_signed_distance: (q) => distance(sphere(q.sphere), capsule(q.capsule)),
+    capsule_capsule_signed_distance: (q) => distance(capsule(q.capsule1), capsule(q.capsule2)),
   },
 });

@@ -34,12 +34,15 @@ const plane = ({ normal, offset }) =>
   geom("mjGEOM_PLANE", [0, 0, 0], scaled(normal, -offset / length(normal) / length(normal)), axesAlong(normal));
 
 // Calls. Geoms without a bounding radius meet in every place.
-/** The deepest contact of two geoms, of which the first has the lower type: its depth and normal; undefined where there is none. */
-function contact(...geoms) {
+function set(geoms) {
   geoms.forEach(({ type, size, at, turn }, i) => {
     model.geom_type[i] = type, model.geom_rbound[i] = 0;
     model.geom_size.set(size, 3 * i), data.geom_xpos.set(at, 3 * i), data.geom_xmat.set(turn, 9 * i);
   });
+}
+/** The deepest contact of two geoms, of which the first has the lower type: its depth and normal; undefined where there is none. */
+function contact(...geoms) {
+  set(geoms);
   M.mj_collision(model, data);
   const list = data.contact, found = [];
   for (let i = 0; i < list.size(); ++i) {
@@ -52,6 +55,14 @@ function contact(...geoms) {
 }
 const meet = (a, b) => contact(a, b) !== undefined;
 const depth = (a, b) => contact(a, b) ?? false;
+const ends = new M.DoubleBuffer(6);
+/** The signed distance of two geoms, which are no further apart than their places. */
+function distance(a, b) {
+  set([a, b]);
+  const most = 2 * length(minus(b.at, a.at)) + a.size[0];
+  const found = M.mj_geomDistance(model, data, 0, 1, most, ends), [x, y, z, ...point2] = ends.GetView();
+  return found < most ? { distance: found, point1: [x, y, z], point2 } : new Cannot("mj_geomDistance finds no distance");
+}
 function ray({ point, velocity }, { type, size, at, turn }) {
   if (!(length(velocity) > 0)) return new Cannot("a ray has a direction");
   const time = M.mju_rayGeom(at, turn, size, point, velocity, type);
@@ -62,7 +73,7 @@ function ray({ point, velocity }, { type, size, at, turn }) {
 const requires = ["no zero sizes"], gives = ["depth", "normal"];
 const surface = "mj_ray: 'Intersect ray (pnt+x*vec, x>=0) with visible geoms', 'Return distance (x) to nearest surface, or -1 if no intersection'";
 const rays = { gives: ["time"], requires, declares: [declared("contact where it leaves", surface)] };
-const overlaps = { gives: [], requires }, depths = { gives, requires };
+const overlaps = { gives: [], requires }, depths = { gives, requires }, distances = { gives: ["distance", "point1", "point2"], requires };
 answerBy({
   name: "mujoco-js", version: `MuJoCo ${M.mj_versionString()}, mujoco-js ${version}`, scalar: "double",
   queries: {
@@ -81,5 +92,8 @@ answerBy({
     sphere_plane_penetration: { answer: (q) => depth(plane(q.plane), sphere(q.sphere)), ...depths },
     box_plane_penetration: { answer: (q) => depth(plane(q.plane), box(q.box)), ...depths },
     box_box_penetration: { answer: (q) => depth(box(q.box1), box(q.box2)), ...depths },
+    sphere_sphere_signed_distance: { answer: (q) => distance(sphere(q.sphere1), sphere(q.sphere2)), ...distances },
+    sphere_capsule_signed_distance: { answer: (q) => distance(sphere(q.sphere), capsule(q.capsule)), ...distances },
+    capsule_capsule_signed_distance: { answer: (q) => distance(capsule(q.capsule1), capsule(q.capsule2)), ...distances },
   },
 });

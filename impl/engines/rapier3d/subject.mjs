@@ -38,6 +38,14 @@ function depth(a, b, sign = 1) {
   if (!c || c.distance > 0) return false;
   return { depth: -c.distance, normal: scaled(list(c.normal1), sign) };
 }
+/** The signed distance, as Rapier's contact of shapes at any distance. */
+function distance(a, b) {
+  const c = a.shape.contactShape(vec(a.at), a.turn, b.shape, vec(b.at), b.turn, ever);
+  if (!c) return new Cannot("contactShape gives no contact");
+  return { distance: c.distance, normal: list(c.normal1), point1: list(c.point1), point2: list(c.point2) };
+}
+/** The nearest point of a surface. Rapier gives nothing else of a distance of points. */
+const projection = (point, b) => ({ point2: list(b.shape.projectPoint(vec(b.at), b.turn, vec(point), false).point) });
 function cast({ sphere: { center, radius }, velocity }, b) {
   const hit = b.shape.castShape(vec(b.at), b.turn, vec([0, 0, 0]), new R.Ball(radius), vec(center), still, vec(velocity), 0, ever, true);
   return hit && { time: hit.time_of_impact };
@@ -45,7 +53,8 @@ function cast({ sphere: { center, radius }, velocity }, b) {
 
 const solid = "Solid ray cast: 'A solid ray cast (solid is set to true) will return an intersection with its toi field set to zero and its normal undefined'";
 const inside = [declared("start in contact is a hit", solid)];
-const rays = ["time", "normal"], gives = ["depth", "normal"], times = ["time"];
+const stops = "Shape.castShape: 'stopAtPenetration - If set to `false`, the linear shape-cast won’t immediately stop if the shape is penetrating another shape at its starting point'";
+const rays = ["time", "normal"], gives = ["depth", "normal"], times = ["time"], points = ["point2"];
 answerBy({
   name: "rapier3d", version: `rapier3d-compat ${version}`, scalar: "float",
   queries: {
@@ -78,5 +87,17 @@ answerBy({
     moving_sphere_sphere: { answer: (q) => cast(q, sphere(q.fixed)), gives: times },
     moving_sphere_box: { answer: (q) => cast(q, box(q.box)), gives: times },
     moving_sphere_capsule: { answer: (q) => cast(q, capsule(q.capsule)), gives: times },
+    moving_sphere_triangle: { answer: (q) => cast(q, triangle(q.triangle)), gives: times },
+    moving_sphere_plane: { answer: (q) => cast(q, plane(q.plane)), gives: times, declares: [declared("start in contact is a hit", stops)] },
+    closest_point_segment: (q) => ({ point: projection(q.point, segment(q.segment)).point2 }),
+    point_sphere_signed_distance: { answer: (q) => projection(q.point, sphere(q.sphere)), gives: points },
+    point_segment_signed_distance: { answer: (q) => projection(q.point, segment(q.segment)), gives: points },
+    point_capsule_signed_distance: { answer: (q) => projection(q.point, capsule(q.capsule)), gives: points },
+    sphere_sphere_signed_distance: (q) => distance(sphere(q.sphere1), sphere(q.sphere2)),
+    sphere_segment_signed_distance: (q) => distance(sphere(q.sphere), segment(q.segment)),
+    sphere_capsule_signed_distance: (q) => distance(sphere(q.sphere), capsule(q.capsule)),
+    segment_segment_signed_distance: (q) => distance(segment(q.segment1), segment(q.segment2)),
+    segment_capsule_signed_distance: (q) => distance(segment(q.segment), capsule(q.capsule)),
+    capsule_capsule_signed_distance: (q) => distance(capsule(q.capsule1), capsule(q.capsule2)),
   },
 });

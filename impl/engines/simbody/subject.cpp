@@ -42,6 +42,7 @@ int box_box_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
 int triangle_triangle_overlap(const double* in, std::size_t, nearmiss_answer* answer) {
   return said(triangle(in).overlapsTriangle(triangle(in + 9)), answer);
 }
+constexpr const char* no_radius = "ContactGeometry::Sphere has a positive radius";
 int moving_point_sphere(const double* in, std::size_t, nearmiss_answer* answer) {
   const double speed = std::hypot(in[3], in[4], in[5]);
   if (!(speed > 0)) {
@@ -49,7 +50,7 @@ int moving_point_sphere(const double* in, std::size_t, nearmiss_answer* answer) 
     return NEARMISS_CANNOT_ANSWER;
   }
   if (!(in[9] > 0)) {
-    std::strcpy(answer->why, "ContactGeometry::Sphere has a positive radius");
+    std::strcpy(answer->why, no_radius);
     return NEARMISS_CANNOT_ANSWER;
   }
   SimTK::Real distance = 0;
@@ -63,6 +64,20 @@ int moving_point_sphere(const double* in, std::size_t, nearmiss_answer* answer) 
   for (int i = 0; i < 3; ++i) answer->values[4 + i] = normal[i];
   return NEARMISS_ANSWERED;
 }
+int point_sphere_signed_distance(const double* in, std::size_t, nearmiss_answer* answer) {
+  if (!(in[6] > 0)) {
+    std::strcpy(answer->why, no_radius);
+    return NEARMISS_CANNOT_ANSWER;
+  }
+  bool is_inside = false;
+  SimTK::UnitVec3 outward;
+  const Vec3 center = vector(in + 3);
+  const Vec3 nearest =
+      center + SimTK::ContactGeometry::Sphere(in[6]).findNearestPoint(vector(in) - center, is_inside, outward);
+  answer->yes = 1, answer->given = 0b1110001110;  // the normal and the second point
+  for (int i = 0; i < 3; ++i) answer->values[1 + i] = -outward[i], answer->values[7 + i] = nearest[i];
+  return NEARMISS_ANSWERED;
+}
 
 const nearmiss_offer offers[] = {
     {"moving_point_sphere", 11, 7, nullptr, nullptr, moving_point_sphere, 0},
@@ -71,6 +86,7 @@ const nearmiss_offer offers[] = {
     {"sphere_box_overlap", 14, 0, nullptr, nullptr, sphere_box_overlap, 0},
     {"box_box_overlap", 21, 1, nullptr, nullptr, box_box_overlap, 0},
     {"triangle_triangle_overlap", 18, 0, nullptr, nullptr, triangle_triangle_overlap, 0},
+    {"point_sphere_signed_distance", 7, 10, nullptr, nullptr, point_sphere_signed_distance, 0},
 };
 /// The version of the library that is loaded.
 const char* version() {

@@ -69,6 +69,15 @@ answerBy({
     segment_capsule_overlap: { answer: near((q) => toLine(line(q.segment), axis(q.capsule)), (q) => q.capsule.radius), ...byDistance },
     capsule_capsule_overlap: { answer: near((q) => toLine(axis(q.capsule1), axis(q.capsule2)), (q) => q.capsule1.radius + q.capsule2.radius), ...byDistance },
     capsule_triangle_overlap: ({ capsule: { p0, p1, radius }, triangle: t }) => !!new Octree().triangleCapsuleIntersect(new Capsule(vec(p0), vec(p1), radius), triangle(t)),
+    point_sphere_signed_distance: { answer: (q) => ({ distance: sphere(q.sphere).distanceToPoint(vec(q.point)) }), gives: ["distance"] },
+    point_segment_signed_distance: { answer: (q) => ({ point2: list(line(q.segment).closestPointToPoint(vec(q.point), true, new T.Vector3())) }), gives: ["point2"] },
+    segment_segment_signed_distance: {
+      answer: (q) => {
+        const point1 = new T.Vector3(), point2 = new T.Vector3();
+        const square = line(q.segment1).distanceSqToLine3(line(q.segment2), point1, point2);
+        return { distance: Math.sqrt(square), point1: list(point1), point2: list(point2) };
+      }, gives: ["distance", "point1", "point2"],
+    },
     aabox_triangle_overlap: (q) => box3(q.box).intersectsTriangle(triangle(q.triangle)),
     moving_sphere_passes_box: wayMeetsBox,
     closest_point_segment: (q) => ({ point: list(line(q.segment).closestPointToPoint(vec(q.point), true, new T.Vector3())) }),

@@ -171,6 +171,35 @@ int capsule_box_overlap(const double* in, std::size_t, nearmiss_answer* answer) 
   const Wm5::Capsule3<double> c = capsule(in);
   return said(Wm5::DistSegment3Box3<double>(c.Segment, box(in + 7)).Get() <= c.Radius, answer);
 }
+/// The distance and the two points of a class of distance.
+template <class Distance>
+int distance(Distance of, nearmiss_answer* answer) {
+  answer->yes = 1, answer->given = 0b1111110001;
+  answer->values[0] = of.Get();
+  for (int i = 0; i < 3; ++i) {
+    answer->values[4 + i] = of.GetClosestPoint0()[i];
+    answer->values[7 + i] = of.GetClosestPoint1()[i];
+  }
+  return NEARMISS_ANSWERED;
+}
+int point_segment_signed_distance(const double* in, std::size_t, nearmiss_answer* answer) {
+  const Vector point = vector(in);
+  const Wm5::Segment3<double> s = segment(in + 3);
+  return distance(Wm5::DistPoint3Segment3<double>(point, s), answer);
+}
+int closest_point_segment(const double* in, std::size_t, nearmiss_answer* answer) {
+  const Vector point = vector(in + 6);
+  const Wm5::Segment3<double> s = segment(in);
+  Wm5::DistPoint3Segment3<double> of(point, s);
+  of.GetSquared();
+  answer->yes = 1;
+  for (int i = 0; i < 3; ++i) answer->values[i] = of.GetClosestPoint1()[i];
+  return NEARMISS_ANSWERED;
+}
+int segment_segment_signed_distance(const double* in, std::size_t, nearmiss_answer* answer) {
+  const Wm5::Segment3<double> a = segment(in), b = segment(in + 6);
+  return distance(Wm5::DistSegment3Segment3<double>(a, b), answer);
+}
 
 constexpr const char* by_distance = "a class of distance, and the radii";
 const nearmiss_offer offers[] = {
@@ -198,6 +227,9 @@ const nearmiss_offer offers[] = {
     {"triangle_triangle_overlap", 18, 0, nullptr, nullptr, triangle_triangle_overlap, 0},
     {"triangle_box_overlap", 19, 0, nullptr, nullptr, triangle_box_overlap, 0},
     {"closest_points_lines", 12, 6, nullptr, nullptr, closest_points_lines, 0},
+    {"closest_point_segment", 9, 3, nullptr, nullptr, closest_point_segment, 0},
+    {"point_segment_signed_distance", 9, 10, nullptr, nullptr, point_segment_signed_distance, 0},
+    {"segment_segment_signed_distance", 12, 10, nullptr, nullptr, segment_segment_signed_distance, 0},
 };
 const nearmiss_plugin wild_magic = {NEARMISS_PLUGIN_VERSION,        SUBJECT, "Wild Magic 5.17", NEARMISS_DOUBLE,
                                     sizeof offers / sizeof *offers, offers};

@@ -25,6 +25,7 @@
 #include <sys/time.h>
 #include <sys/types.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "reports/tests/zoo/attacks.h"
@@ -44,6 +45,11 @@ static int is_chosen(const char* what) {
 
 static void spin(void) {
   for (volatile int forever = 1; forever;) {
+  }
+}
+/* More processor time than the tests let a case take. */
+static void work_for_a_while(void) {
+  while (clock() < CLOCKS_PER_SEC / 5) {
   }
 }
 static void sleep_for_ever(void) {
@@ -218,6 +224,7 @@ static void do_misdeed(const char* when) {
   IF("stack") overflow_the_stack(0);
   IF("memory") eat_memory();
   IF("spins") spin();
+  IF("takes-a-while") work_for_a_while();
   IF("sleeps") sleep_for_ever();
   IF("stops-itself") raise(SIGSTOP);
   IF("blocks-signals-and-spins") {

@@ -18,7 +18,9 @@ enum class Prediction {
   small_error,        ///< the error is one that rounding may have
   two_borders,        ///< from scale to scale, the answers are wrong, then right, and then wrong again
   one_border,         ///< from scale to scale, the answers are wrong up to one border and right beyond it
-  ends_at_a_scale,    ///< the finding ends where lengths or velocities are multiplied by a power of two
+  ends_at_a_scale,    ///< the finding ends where lengths, velocities, directions or rotations are multiplied by a power
+                      ///< of two
+  one_side_nearby,    ///< at least half of the cases a few ulps away with the same exact decision are wrong too
 };
 
 /// A cause whose test passed.

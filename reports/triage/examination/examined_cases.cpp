@@ -92,6 +92,7 @@ void ExaminedCases::add_ranges(const ExaminedCase& e, const Subject& subject, st
   const std::optional<Minimised> m = ranges_around(e.simplest, subject, time, workers_, tick);
   if (!m) return;
   report["minimised"]["same_finding"] = ranges_to_json(m->ranges, e.simplest);
+  report["minimised"]["ranges_ended_by"] = name_of(m->ranges_end);
   report["minimised"]["questions"] = report["minimised"]["questions"].get<std::uint64_t>() + m->questions;
   write_file(e.file, pretty_json(report));
 }

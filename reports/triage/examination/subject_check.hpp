@@ -37,6 +37,7 @@ struct CheckedQuery {
   std::size_t wrong = 0;           ///< answers that are proved wrong
   std::size_t broke = 0;           ///< cases that broke the subject
   std::size_t without_answer = 0;  ///< cases to which the subject has no answer
+  std::size_t not_asked = 0;       ///< cases behind those in which the subject always broke, or was often late
   std::string why_broke;           ///< the reason of the first break
   std::optional<Misreading> misreading;
   std::optional<WrongOrdinary> example;

@@ -114,6 +114,10 @@ bool AskedCases::same_in_all_roundings() {
   return !roundings().empty() && count(roundings(), Outcome::same) == roundings().size();
 }
 
+std::string_view AskedCases::and_in_every_rounding() {
+  return roundings().empty() ? "" : " and in every rounding mode";
+}
+
 bool AskedCases::is_exact() {
   return std::any_of(roundings().begin(), roundings().end(), [](const Trial& t) {
     return t.outcome == Outcome::same && t.answer.status == Answer::Status::answered && t.raised == 0;

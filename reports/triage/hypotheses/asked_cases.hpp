@@ -45,6 +45,8 @@ class AskedCases {
   const std::vector<ScaleScan>& scans();
 
   bool same_in_all_roundings();
+  /// " and in every rounding mode"; empty for a subject behind pipes, which was not asked in others.
+  std::string_view and_in_every_rounding();
   /// The subject's arithmetic on the case was exact: no exception, not even an inexact result.
   bool is_exact();
   /// Generated cases have false hits and false misses: a tolerance errs to one side.

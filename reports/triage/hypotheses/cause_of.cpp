@@ -11,6 +11,8 @@
 #include "reports/engine/interrupt.hpp"
 #include "reports/triage/hypotheses/hypotheses.hpp"
 #include "reports/triage/hypotheses/predictions.hpp"
+#include "reports/triage/hypotheses/readings.hpp"
+#include "reports/triage/hypotheses/regions.hpp"
 #include "reports/triage/hypotheses/relative_tolerance.hpp"
 #include "reports/triage/hypotheses/tolerance.hpp"
 
@@ -54,6 +56,25 @@ bool is_consistent(const Named& named, AskedCases& asked, std::vector<Evidence>&
   auto contradiction = contradiction_of(named, asked);
   if (contradiction) evidence.push_back(std::move(*contradiction));
   return !contradiction;
+}
+
+/// Whether the cause is a region in which the case does not lie, or a reading that does not explain its answer.
+bool is_not_of_case(const Named& named, const AskedCases& asked) {
+  const Case& c = asked.question();
+  bool is_known = false;
+  for (const Region& region : regions_of(*c.query)) {
+    if (region.name != named.key) continue;
+    if (region.has(c)) return false;
+    is_known = true;
+  }
+  for (const auto readings : {readings(), readings_of_answers()}) {
+    for (const Reading& reading : readings) {
+      if (reading.name != named.key) continue;
+      if (reading.right(c, asked.trials().base().answer, asked.is_right()).value_or(false)) return false;
+      is_known = true;
+    }
+  }
+  return is_known;
 }
 
 /// The causes of one case.
@@ -158,7 +179,9 @@ class CauseSearch {
       std::vector<Evidence> evidence;
       std::vector<Named> named = CausesOfCase(of_other, evidence).result();
       // What the other case shows must hold for the case, too: the other may be one of another bug.
-      std::erase_if(named, [&](const Named& n) { return asked.is_refuted(n.key) || contradiction_of(n, asked); });
+      std::erase_if(named, [&](const Named& n) {
+        return asked.is_refuted(n.key) || is_not_of_case(n, asked) || contradiction_of(n, asked);
+      });
       count(trials), ++tried;
       if (named.empty()) continue;
       cause_.evidence.push_back(

@@ -29,7 +29,8 @@ class TestOfReadings : public TestOfCause {
     const std::string which =
         by_chance_.empty() ? "" : fmt::format(" Right for this case, but not for others: {}.", list_text(by_chance_));
     saw(fmt::format("{} other meanings of the inputs and of the answer were tried.", readings().size()),
-        "None explains the answers." + which);
+        "None explains the answers." + which,
+        explains_most_ ? std::vector{CauseKind::logic} : std::vector<CauseKind>{});
     return std::nullopt;
   }
 
@@ -58,10 +59,11 @@ class TestOfReadings : public TestOfCause {
     std::size_t for_it = 0;      ///< generated cases with a wrong answer that is right under the reading
     std::size_t wrong = 0;       ///< generated cases with a wrong answer, of which the reading says something
     std::size_t against_it = 0;  ///< generated cases with a right answer that is wrong under the reading
+    static constexpr std::size_t least_generated = 2;
 
     /// A convention holds in every case. A reading that explains wrong answers by chance makes right ones wrong.
     bool holds(bool is_of_numbers) const {
-      constexpr std::size_t least = 4, least_generated = 2, many = 16;
+      constexpr std::size_t least = 4, many = 16;
       const auto nearly = is_of_numbers ? all_but_few : nearly_all;
       const bool is_rare = explained >= many && explained == with_finding && for_it == wrong;  // among generated cases
       return explained >= least && nearly(explained, with_finding) && for_it >= (is_rare ? 1 : least_generated) &&
@@ -97,6 +99,9 @@ class TestOfReadings : public TestOfCause {
     if (holds) count_generated(reading, asked_.fresh(), fresh);
     if (holds && holds_for_fresh_cases(reading, s, fresh)) return Held{&reading, s, fresh};
     asked_.refute(reading.name);
+    // A mistake of logic is left over where nothing else explains the answers: this explains most of them.
+    if (most(s.explained, s.with_finding) && s.for_it >= Support::least_generated && s.against_it == 0)
+      explains_most_ = true;
     by_chance_.push_back(fmt::format("{} ({} with the finding, {} generated ones made right, {} wrong)", reading.name,
                                      of_text(s.explained, s.with_finding), s.for_it, s.against_it));
     return std::nullopt;
@@ -233,6 +238,7 @@ class TestOfReadings : public TestOfCause {
   }
 
   std::vector<std::string> by_chance_;  ///< readings under which the answer to this case alone is right
+  bool explains_most_ = false;          ///< one of them makes most of the wrong answers right, and no right one wrong
 };
 
 }  // namespace

@@ -19,7 +19,8 @@ Tested number_range_of(AskedCases& asked);
 /// The first region of regions_of() in which nearly all answers are wrong, or in which alone some are.
 Tested unsupported_of(AskedCases& asked);
 
-/// The first reading of readings() that explains the case, nearly all others with the finding, and generated ones.
+/// Of the readings that explain the case, nearly all others with the finding, and generated ones: the one that makes
+/// the most answers right.
 Tested convention_of(AskedCases& asked);
 
 /// The error of the worst member, over a length of the case, is one value that a person writes, in nearly all cases

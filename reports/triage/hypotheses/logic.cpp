@@ -22,27 +22,28 @@ class Logic : public TestOfCause {
                    "The subject's arithmetic is exact here, and its answer is wrong at every scale."};
     const std::vector<Trial>& near = asked_.neighbours();
     const std::vector<Trial> around = trials().ask(relative_neighbours(question(), cases, order, asked_.seed() + 2));
-    const std::size_t all = around.size() - count(around, Outcome::none);
+    const std::size_t all = count_answered(around);
     saw("Cases were asked whose numbers differ by up to a ten-thousandth.",
         fmt::format("{} are wrong.", of_text(wrong_of(around), all)));
     // Behind pipes there are no other rounding modes, and the last bits of the inputs stand for them.
     const bool stays = wrong_of(asked_.roundings()) == asked_.roundings().size() &&
-                       nearly_all(wrong_of(near), near.size() - count(near, Outcome::none)) &&
-                       nearly_all(wrong_of(around), all);
+                       nearly_all(wrong_of(near), count_answered(near)) && nearly_all(wrong_of(around), all);
     if (!stays) return std::nullopt;
     if (!no_flip && asked_.is_wrong_decision() && asked_.errs_to_both_sides())
       return Named{
           CauseKind::logic,
           "",
-          "The answer stays wrong in every rounding mode and for all cases nearby, depends on the scale, and errs "
-          "to both sides: the subject may compare numbers of different units.",
+          fmt::format(
+              "The answer stays wrong for all cases nearby{}, depends on the scale, and errs to both sides: the "
+              "subject may compare numbers of different units.",
+              asked_.and_in_every_rounding()),
           {Prediction::in_every_rounding}};
     if (!no_flip) return std::nullopt;
     return Named{
         CauseKind::logic,
         "",
-        "The answer stays wrong in every rounding mode, at every scale and for all cases nearby: the mistake is in "
-        "the logic.",
+        fmt::format("The answer stays wrong for all cases nearby, at every scale{}: the mistake is in the logic.",
+                    asked_.and_in_every_rounding()),
         {Prediction::at_every_scale, Prediction::in_every_rounding}};
   }
 
@@ -58,7 +59,7 @@ class Logic : public TestOfCause {
   /// limiting case. Where it needs one of the zeros, half are wrong.
   bool stays_beside_zeros() {
     const std::vector<Trial> beside = trials().ask(with_moved_zeros(question(), cases, order, asked_.seed() + 3));
-    const std::size_t all = beside.size() - count(beside, Outcome::none);
+    const std::size_t all = count_answered(beside);
     if (all == 0) return true;
     saw("Cases were asked whose zeros are small numbers instead.",
         fmt::format("{} are wrong.", of_text(wrong_of(beside), all)));

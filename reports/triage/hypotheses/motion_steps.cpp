@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "oracles/requirements.hpp"
 
@@ -19,18 +20,20 @@ class MotionSteps : public TestOfCause {
   std::optional<Named> times_of_steps() {
     if (trials().query().kind != Kind::impact || !trials().base().answer.yes) return std::nullopt;
     const std::vector<Trial> moved = trials().ask(with_moved_starts());
-    std::vector<double> times;
+    std::set<double> given, exact;
+    std::size_t all = 0;
     for (const Trial& t : moved) {
-      if (t.answer.status == Answer::Status::answered && t.answer.yes && given_time(t) > 0)
-        times.push_back(given_time(t));
+      if (t.answer.status != Answer::Status::answered || !t.answer.yes || !(given_time(t) > 0)) continue;
+      ++all, given.insert(given_time(t));
+      for (const Alternative& right : truth_of(t.question).alternatives) {
+        if (right.yes) exact.insert(right.values[time_of(trials().query())].low);
+      }
     }
-    const std::size_t all = times.size();
-    std::sort(times.begin(), times.end());
-    times.erase(std::unique(times.begin(), times.end()), times.end());
     saw("The start was moved by different small distances.",
-        fmt::format("{} different times of contact were given in {} answers.", times.size(), all));
+        fmt::format("{} different times of contact were given in {} answers, and {} are exact.", given.size(), all,
+                    exact.size()));
     constexpr std::size_t least = 16, shared = 4;
-    if (all < least || shared * times.size() > all) return std::nullopt;
+    if (all < least || shared * given.size() > all || !most(exact.size(), all)) return std::nullopt;
     return Named{CauseKind::iteration_limit, "steps along the motion",
                  "The time is one of a few: the subject looks at few steps along the motion."};
   }
@@ -64,13 +67,14 @@ class MotionSteps : public TestOfCause {
     std::size_t right = 0, changes = 0;
     bool before = false;
     for (const Trial& t : later) {
+      if (t.outcome == Outcome::none) continue;
       const bool ended = has_ended(t);
       right += ended, changes += ended != before;
       before = ended;
     }
     saw("The same motion began later, at points that come nearer and nearer to the contact.",
         fmt::format("The finding has ended in {}, and comes or goes {} times along the way.",
-                    of_text(right, later.size()), changes));
+                    of_text(right, count_answered(later)), changes));
     constexpr std::size_t least_changes = 3, least_in_all = 4, least_right = 8;
     // A search in steps has one such change, and so has a formula that is wrong for all far starts.
     const bool is_either = changes == 1 && trials().base().finding.disagreement == Disagreement::false_miss;
@@ -80,10 +84,12 @@ class MotionSteps : public TestOfCause {
     if (has_one_wrong_contact(later)) return std::nullopt;
     const bool comes_and_goes = changes >= least_changes && right >= least_right;
     if (!comes_and_goes && changes + changes_of_earlier_starts() < least_in_all) return std::nullopt;
+    if (depends_on_last_bits(later)) return std::nullopt;
     return Named{CauseKind::iteration_limit,
                  "steps along the motion",
-                 "The answer depends on where the same motion begins, in every rounding mode and at every scale: the "
-                 "steps along the motion are too few.",
+                 fmt::format("The answer depends on where the same motion begins, at every scale{}: the steps along "
+                             "the motion are too few.",
+                             asked_.and_in_every_rounding()),
                  {Prediction::at_every_scale, Prediction::in_every_rounding}};
   }
 
@@ -119,8 +125,9 @@ class MotionSteps : public TestOfCause {
     return Named{
         CauseKind::iteration_limit,
         "steps along the motion",
-        "Contacts are missed where the motion grazes, in every rounding mode and at every scale: a search that "
-        "converges slowly there ends too early.",
+        fmt::format("Contacts are missed where the motion grazes, at every scale{}: a search that converges slowly "
+                    "there ends too early.",
+                    asked_.and_in_every_rounding()),
         {Prediction::at_every_scale, Prediction::in_every_rounding}};
   }
 
@@ -156,7 +163,7 @@ class MotionSteps : public TestOfCause {
     if (shorter.empty()) return std::nullopt;
     const std::size_t right = count(shorter, Outcome::right);
     saw("The time was limited to shorter times after the contact.",
-        fmt::format("{} answers are right.", of_text(right, shorter.size())));
+        fmt::format("{} answers are right.", of_text(right, count_answered(shorter))));
     if (right < least) return std::nullopt;
     return Named{CauseKind::iteration_limit, "steps along the motion",
                  "A contact is found within a shorter time, and missed within a longer one: the steps along the motion "
@@ -198,6 +205,28 @@ class MotionSteps : public TestOfCause {
     const MemberFinding* member = full.headline_member();
     return member != nullptr && member->worst == int(time_of(trials().query())) && trials().base().answer.yes &&
            !asked_.is_wrong_decision();
+  }
+  /// Whether starts that are a few ulps away end the finding, or bring it back. The places at which a search in steps
+  /// finds the contact have borders, and none of them is so near to more than one start.
+  bool depends_on_last_bits(const std::vector<Trial>& later) {
+    constexpr std::size_t most_different = 1;
+    constexpr int ulps = 8;
+    std::vector<Case> twins;
+    for (const Trial& t : later)
+      twins.push_back(ulp_neighbours(t.question, 1, ulps, asked_.seed() + twins.size()).front());
+    const std::vector<Trial> asked = trials().ask(twins);
+    std::size_t different = 0, all = 0;
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      const bool is_alike = asked[i].finding.truth_yes == later[i].finding.truth_yes;
+      if (asked[i].outcome == Outcome::none || later[i].outcome == Outcome::none || !is_alike) continue;
+      ++all, different += has_ended(asked[i]) != has_ended(later[i]);
+    }
+    if (different <= most_different) return false;
+    saw("The numbers of these later motions were moved by a few ulps.",
+        fmt::format("In {} the finding comes or goes: what tells them apart is rounding, and no step.",
+                    of_text(different, all)),
+        {CauseKind::iteration_limit});
+    return true;
   }
   /// Wherever the motion begins, a wrong contact is the same one: a search that ends too early finds another one from
   /// each start.
@@ -351,6 +380,7 @@ class MotionSteps : public TestOfCause {
     std::size_t changes = 0;
     bool before = false;
     for (const Trial& t : trials().ask(cases)) {
+      if (t.outcome == Outcome::none) continue;
       const bool ended = has_ended(t);
       changes += ended != before;
       before = ended;

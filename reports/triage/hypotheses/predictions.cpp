@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 
 #include "reports/findings/severity.hpp"
@@ -45,7 +46,7 @@ Contradiction stays_at_every_scale(AskedCases& asked) {
 /// A subject behind pipes has one rounding mode. Rounding errors change with the last bits of the inputs, too.
 Contradiction depends_on_last_bits(AskedCases& asked) {
   const std::vector<Trial>& near = asked.neighbours();
-  const std::size_t right = count(near, Outcome::right), all = near.size() - count(near, Outcome::none);
+  const std::size_t right = count(near, Outcome::right), all = count_answered(near);
   if (all == 0 || nearly_all(all - right, all)) return std::nullopt;
   return Evidence{fmt::format("{} cases were asked whose numbers are a few ulps away.", all),
                   fmt::format("{} are right.", right)};
@@ -136,15 +137,30 @@ Contradiction has_many_borders(AskedCases& asked) {
   return std::nullopt;
 }
 
+/// A comparison with a constant has one border. Seen from a few ulps away, the border is a plane: of two opposite moves
+/// at least one stays on the side of the case. So at least half of the nearby cases must be wrong; those with another
+/// exact decision say nothing. Contradicted where chance leaves so few wrong in fewer than one of 2^16 cases.
+Contradiction is_lost_nearby(AskedCases& asked) {
+  constexpr double chance = 0x1p-16, half = 0.5;
+  std::size_t same = 0, all = 0;
+  for (const Trial& t : asked.neighbours()) {
+    if (t.outcome == Outcome::none || t.finding.truth_yes != asked.trials().base().finding.truth_yes) continue;
+    ++all, same += t.outcome != Outcome::right;
+  }
+  if (all == 0 || cdf(boost::math::binomial(double(all), half), double(same)) >= chance) return std::nullopt;
+  return Evidence{fmt::format("{} cases were asked whose numbers are a few ulps away.", all),
+                  fmt::format("{} are wrong: a border would leave half of them on its side.", same)};
+}
+
 struct Test {
   Prediction prediction;
   Contradiction (*contradiction)(AskedCases&);
 };
 constexpr std::array tests{
-    Test{Prediction::at_every_scale, depends_on_scale},     Test{Prediction::in_every_rounding, depends_on_rounding},
-    Test{Prediction::extreme_numbers, stays_in_range},      Test{Prediction::small_error, is_no_error_of_rounding},
-    Test{Prediction::two_borders, has_many_borders},        Test{Prediction::one_border, has_several_borders},
-    Test{Prediction::ends_at_a_scale, stays_at_every_scale}};
+    Test{Prediction::at_every_scale, depends_on_scale},      Test{Prediction::in_every_rounding, depends_on_rounding},
+    Test{Prediction::extreme_numbers, stays_in_range},       Test{Prediction::small_error, is_no_error_of_rounding},
+    Test{Prediction::two_borders, has_many_borders},         Test{Prediction::one_border, has_several_borders},
+    Test{Prediction::ends_at_a_scale, stays_at_every_scale}, Test{Prediction::one_side_nearby, is_lost_nearby}};
 
 }  // namespace
 

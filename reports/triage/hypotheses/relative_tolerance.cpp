@@ -48,6 +48,8 @@ class RelativeTolerance {
     std::size_t of_case, number;
     Ratios border;
     Case at_wrong, at_right;
+    Answer wrong;                            ///< that to `at_wrong`
+    mutable std::optional<Ratios> before{};  ///< at `at_wrong`, where it was computed
   };
   using Family = std::vector<std::size_t>;  ///< ratios that an implementation may compare in one loop
   struct Candidate {
@@ -83,10 +85,38 @@ class RelativeTolerance {
     for (const Crossing& x : crossings_of(trials_, t.question, numbers)) {
       const Answer* hit = x.at_right.answer.yes ? &x.at_right.answer : &x.wrong;
       crossings_.push_back({starts_.size() - 1, x.number, Ratios(x.at_right.question, hit, is_wrong_decision()),
-                            x.at_wrong, x.at_right.question});
+                            x.at_wrong, x.at_right.question, x.wrong});
       if (found.empty() || found.back() != x.number) found.push_back(x.number);
     }
     return found;
+  }
+
+  /// A value of a ratio at a border.
+  struct At {
+    long double value;
+    std::size_t border, ratio;
+    friend bool operator<(const At& a, const At& b) { return a.value < b.value; }
+  };
+  using Window = std::span<const At>;
+
+  /// A ratio has one value on both sides of a border. Where it has not, it is a few ulps there: the border is at zero,
+  /// which is a case distinction and no tolerance.
+  bool is_known_at(const Measured& m, std::size_t i) const {
+    if (!m.before) {
+      const bool has_contact = trials_.base().finding.truth_yes;
+      m.before.emplace(m.at_wrong, has_contact ? nullptr : &m.wrong, is_wrong_decision());
+    }
+    const long double a = m.before->value(i), b = m.border.value(i);
+    return std::max(a, b) <= spread * std::min(a, b);
+  }
+  /// The same at nearly all borders of a window.
+  bool is_known(Window window) const {
+    std::set<std::size_t> borders, known;
+    for (const At& a : window) {
+      borders.insert(a.border);
+      if (is_known_at(crossings_[a.border], a.ratio)) known.insert(a.border);
+    }
+    return nearly_all(known.size(), borders.size());
   }
 
   /// The value of a ratio at a border, and the side on which the answers are wrong; empty where the move did not change
@@ -101,13 +131,6 @@ class RelativeTolerance {
     if (start * least_change < value) return Passed{value, true};
     return start > least_change * value ? std::optional(Passed{value, false}) : std::nullopt;
   }
-  /// A value of a ratio at a border.
-  struct At {
-    long double value;
-    std::size_t border, ratio;
-    friend bool operator<(const At& a, const At& b) { return a.value < b.value; }
-  };
-  using Window = std::span<const At>;
 
   std::optional<Candidate> candidate(const Family& family) const {
     std::vector<At> below, above;
@@ -150,7 +173,8 @@ class RelativeTolerance {
     const auto constant =
         written_constant(double(c.low), double(c.high), usual ? std::min(usual_error, known) : least_error);
     const bool may_be_any = are_many(most) && varied && written_constant(double(c.low), double(c.high), least_error);
-    if (constant && constant->value >= epsilon() && (constant->rank == 0 || may_be_any)) c.constant = constant;
+    const bool is_constant = constant && constant->value >= epsilon() && (constant->rank == 0 || may_be_any);
+    if (is_constant && is_known(window)) c.constant = constant;
     return c;
   }
   /// Where no part of a quotient differs between the borders, only a close power of ten tells a ratio from others with
@@ -231,7 +255,7 @@ class RelativeTolerance {
         CauseKind::relative_tolerance,
         value,
         fmt::format("The subject has a relative tolerance of {} (unit 1) that {} is compared with.", value, name),
-        {Prediction::at_every_scale}};
+        {Prediction::at_every_scale, Prediction::one_side_nearby}};
   }
   /// Half a unit in the last place of a float above or below 1, or the sine of an angle whose cosine is so close to 1.
   bool is_of_floats(double value) const {
@@ -244,9 +268,11 @@ class RelativeTolerance {
     const auto constant = written_constant(double(c.least_part), double(c.largest_part), usual_error);
     if (!constant || constant->rank > 0) return std::nullopt;
     const std::string name = crossings_.front().border.numerator_name(c.ratios.front());
-    return Named{CauseKind::absolute_tolerance, constant->text + " length",
+    return Named{CauseKind::absolute_tolerance,
+                 constant->text + " length",
                  fmt::format("The subject has an absolute tolerance of {} (length) that {} is compared with.",
-                             constant->text, name)};
+                             constant->text, name),
+                 {Prediction::one_side_nearby}};
   }
   static bool is_better(const Candidate& a, const Candidate& b) {
     if (!a.constant || !b.constant) return a.constant.has_value() || (!b.constant && a.borders > b.borders);

@@ -49,7 +49,7 @@ class RoundingErrors : public TestOfCause {
 
   std::optional<Named> rounding() {
     const std::vector<Trial>& near = asked_.neighbours();
-    const std::size_t right = count(near, Outcome::right), all = near.size() - count(near, Outcome::none);
+    const std::size_t right = count(near, Outcome::right), all = count_answered(near);
     if (asked_.similar().size() < least_others) {
       if (count(near, Outcome::same) == 0) {
         saw(fmt::format("{} cases were asked whose numbers are a few ulps away.", all),

@@ -189,7 +189,7 @@ class ToleranceSearch {
                  fmt::format("The answer depends on the scale of the {}: it flips where the largest of them is between "
                              "{:.2g} and {:.2g}. The subject compares something with a constant.",
                              s.group->name, low, high),
-                 {Prediction::one_border, Prediction::ends_at_a_scale}};
+                 {Prediction::one_border, Prediction::ends_at_a_scale, Prediction::one_side_nearby}};
   }
 
   /// Of the largest numbers at the flips. Lengths of ordinary cases differ by no more than about so much, and so do the
@@ -273,12 +273,12 @@ class ToleranceSearch {
       return Named{CauseKind::absolute_tolerance,
                    "",
                    "The subject compares something with a constant: no quantity is a round number at every flip.",
-                   {Prediction::one_border, Prediction::ends_at_a_scale}};
+                   {Prediction::one_border, Prediction::ends_at_a_scale, Prediction::one_side_nearby}};
     return Named{CauseKind::absolute_tolerance,
                  fmt::format("{} {}", is_round ? fmt::format("1e{}", decade) : stable_value(q.low, q.high), q.unit),
                  fmt::format("The subject has an absolute tolerance of about {:.2g} ({}) that {} is compared with.",
                              value, q.unit, q.name),
-                 {Prediction::one_border, Prediction::ends_at_a_scale}};
+                 {Prediction::one_border, Prediction::ends_at_a_scale, Prediction::one_side_nearby}};
   }
   const Case& question() const { return trials_.base().question; }
   void saw(std::string test, std::string result, std::vector<CauseKind> against = {}) {

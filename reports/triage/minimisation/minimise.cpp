@@ -159,6 +159,12 @@ std::vector<SameFinding> ranges_of(const Case& c, std::chrono::duration<double> 
   return ranges;
 }
 
+Minimised::RangesEnd ranges_end_of(const SameFault& fault) {
+  return interrupted()       ? Minimised::RangesEnd::interrupted
+         : fault.has_ended() ? Minimised::RangesEnd::time
+                             : Minimised::RangesEnd::all;
+}
+
 /// An end of a range, rounded: the report has all digits.
 std::string end_text(double x, bool last) { return last ? "any" : fmt::format("{:.7g}", x); }
 
@@ -171,8 +177,10 @@ std::optional<Minimised> minimise(const Case& question, const Subject& subject, 
   Minimised m;
   Case found = simplest(question, limits, fault, m.end);
   const Answer answer = fault.kept();  // after an interrupt the subject cannot be asked again
-  if (limits.finds_ranges) m.ranges = ranges_of(found, limits.time, fault);
-  m.all_ranges = limits.finds_ranges && !fault.has_ended();
+  if (limits.finds_ranges) {
+    m.ranges = ranges_of(found, limits.time, fault);
+    m.ranges_end = ranges_end_of(fault);
+  }
   if (interrupted()) m.end = Minimised::End::interrupted;
   m.questions = fault.questions();
   m.report = examine(found, subject, answer, workers);
@@ -185,7 +193,7 @@ std::optional<Minimised> ranges_around(const Case& question, const Subject& subj
   if (!fault.begin(question) || interrupted()) return std::nullopt;
   Minimised m;
   m.ranges = ranges_of(question, time, fault);
-  m.all_ranges = !fault.has_ended();
+  m.ranges_end = ranges_end_of(fault);
   m.questions = fault.questions();
   return m;
 }
@@ -200,7 +208,25 @@ std::string_view name_of(Minimised::End end) {
   return "?";
 }
 
+std::string_view name_of(Minimised::RangesEnd end) {
+  switch (end) {
+    case Minimised::RangesEnd::all: return "all";
+    case Minimised::RangesEnd::not_sought: return "not sought";
+    case Minimised::RangesEnd::time: return "the time";
+    case Minimised::RangesEnd::interrupted: return "an interrupt";
+  }
+  return "?";
+}
+
 namespace {
+
+Minimised::RangesEnd ranges_end_in(const FileValue& words) {
+  for (const auto end : {Minimised::RangesEnd::all, Minimised::RangesEnd::not_sought, Minimised::RangesEnd::time,
+                         Minimised::RangesEnd::interrupted}) {
+    if (words.text() == name_of(end)) return end;
+  }
+  words.fail("what ended the search for ranges");
+}
 
 Minimised::End end_in(const FileValue& words) {
   for (const auto end :
@@ -228,6 +254,7 @@ nlohmann::ordered_json minimised_to_json(const Minimised& m) {
   nlohmann::ordered_json j = report_to_json(m.report);
   j["minimised"] = {{"questions", m.questions},
                     {"ended_by", name_of(m.end)},
+                    {"ranges_ended_by", name_of(m.ranges_end)},
                     {"same_finding", ranges_to_json(m.ranges, m.report.question)}};
   return j;
 }
@@ -245,7 +272,10 @@ Minimised minimised_from_json(const FileValue& minimised, const Report& report) 
     m.ranges.push_back({std::size_t(field - inputs.begin()), range.at("low").number(), range.at("high").number(),
                         range.at("to_lowest").flag(), range.at("to_highest").flag()});
   }
-  m.all_ranges = m.ranges.size() == std::size_t(std::count_if(inputs.begin(), inputs.end(), has_range));
+  // Files of earlier versions do not say.
+  const bool has_all = m.ranges.size() == std::size_t(std::count_if(inputs.begin(), inputs.end(), has_range));
+  if (has_all) m.ranges_end = Minimised::RangesEnd::all;
+  if (const auto words = minimised.find("ranges_ended_by")) m.ranges_end = ranges_end_in(*words);
   return m;
 }
 
@@ -274,11 +304,14 @@ std::string ranges_text(const Minimised& m) {
         "within it at distances that double.",
         "  ");
   }
-  if (!m.all_ranges) {
-    const bool interrupted = m.end == Minimised::End::interrupted;
-    text += fmt::format("  The other numbers were not moved: {}.\n", interrupted ? "interrupted" : "the time was over");
+  switch (m.ranges_end) {
+    case Minimised::RangesEnd::all: return text;
+    case Minimised::RangesEnd::time: return text + "  The other numbers were not moved: the time was over.\n";
+    case Minimised::RangesEnd::interrupted: return text + "  The other numbers were not moved: interrupted.\n";
+    case Minimised::RangesEnd::not_sought: break;
   }
-  return text;
+  return text + fmt::format("  {} not moved; 'nearmiss minimise' moves each.\n",
+                            m.ranges.empty() ? "The numbers were" : "The other numbers were");
 }
 
 }  // namespace nearmiss

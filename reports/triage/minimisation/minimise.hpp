@@ -31,11 +31,13 @@ struct SameFinding {
 struct Minimised {
   /// What ended the search for a simpler case.
   enum class End { simplest, questions, time, interrupted };
+  /// What ended the search for ranges; `not_sought`: nothing asked for them, or a file does not say.
+  enum class RangesEnd { all, not_sought, time, interrupted };
 
   Report report;                    ///< of the simplest case found
   std::vector<SameFinding> ranges;  ///< of each number but flags and indices, in order
-  bool all_ranges = true;           ///< false where an interrupt or the time left some out
-  std::uint64_t questions = 0;      ///< how often the subject was asked
+  RangesEnd ranges_end = RangesEnd::not_sought;
+  std::uint64_t questions = 0;  ///< how often the subject was asked
   End end = End::simplest;
 };
 
@@ -61,6 +63,7 @@ std::optional<Minimised> ranges_around(const Case& question, const Subject& subj
                                        Workers& workers, const std::function<void(std::uint64_t)>& tick);
 
 std::string_view name_of(Minimised::End end);
+std::string_view name_of(Minimised::RangesEnd end);
 /// A list for the member "same_finding" of "minimised".
 nlohmann::ordered_json ranges_to_json(const std::vector<SameFinding>& ranges, const Case& question);
 /// The report with the member "minimised" (reports/report.schema.json).

@@ -131,6 +131,8 @@ std::size_t count(std::span<const Trial> trials, Outcome outcome) {
   return std::size_t(std::count_if(trials.begin(), trials.end(), [&](const Trial& t) { return t.outcome == outcome; }));
 }
 
+std::size_t count_answered(std::span<const Trial> trials) { return trials.size() - count(trials, Outcome::none); }
+
 std::vector<Case> ulp_neighbours(const Case& c, std::size_t count, int ulps, std::uint64_t seed) {
   Random random(seed);
   std::vector<Case> cases(count, c);

@@ -74,6 +74,8 @@ class Trials {
 };
 
 std::size_t count(std::span<const Trial> trials, Outcome outcome);
+/// Those that have an outcome: "cannot answer" is neither right nor wrong.
+std::size_t count_answered(std::span<const Trial> trials);
 
 /// `count` cases in which each number that may move is up to `ulps` units in the last place away. Zeros stay. So many
 /// ulps make equal numbers different in nearly every case.

@@ -2,18 +2,8 @@
 /// `Certified`, which needs GMP and MPFR (certified.hpp).
 #pragma once
 
-#include <collide/answers.hpp>
-#include <collide/checked.hpp>
-#include <collide/contract.hpp>
-#include <collide/members.hpp>
-#include <collide/prepared.hpp>
-#include <collide/shapes.hpp>
-#include <collide/tiers.hpp>
-#include <collide/vec3.hpp>
-#include <collide/version.hpp>
-
-// The queries.
 #include <collide/aabox_triangle_overlap.hpp>
+#include <collide/answers.hpp>
 #include <collide/bounce_direction.hpp>
 #include <collide/box_box_conservative.hpp>
 #include <collide/box_box_info.hpp>
@@ -22,11 +12,15 @@
 #include <collide/box_box_penetration.hpp>
 #include <collide/box_box_projected_distance.hpp>
 #include <collide/box_box_separating_axis.hpp>
+#include <collide/box_box_signed_distance.hpp>
 #include <collide/box_plane_penetration.hpp>
 #include <collide/capsule_box_overlap.hpp>
+#include <collide/capsule_box_signed_distance.hpp>
 #include <collide/capsule_capsule_overlap.hpp>
 #include <collide/capsule_capsule_signed_distance.hpp>
 #include <collide/capsule_triangle_overlap.hpp>
+#include <collide/capsule_triangle_signed_distance.hpp>
+#include <collide/checked.hpp>
 #include <collide/closest_point_rectangle.hpp>
 #include <collide/closest_point_rectangle_perimeter.hpp>
 #include <collide/closest_point_segment.hpp>
@@ -34,6 +28,8 @@
 #include <collide/closest_point_triangle_perimeter.hpp>
 #include <collide/closest_point_triangle_perimeter_edges.hpp>
 #include <collide/closest_points_lines.hpp>
+#include <collide/contract.hpp>
+#include <collide/members.hpp>
 #include <collide/moving_point_aabox.hpp>
 #include <collide/moving_point_box.hpp>
 #include <collide/moving_point_capsule.hpp>
@@ -51,6 +47,7 @@
 #include <collide/moving_sphere_sphere.hpp>
 #include <collide/moving_sphere_triangle.hpp>
 #include <collide/point_box_overlap.hpp>
+#include <collide/point_box_signed_distance.hpp>
 #include <collide/point_capsule_overlap.hpp>
 #include <collide/point_capsule_signed_distance.hpp>
 #include <collide/point_in_rectangle.hpp>
@@ -58,15 +55,21 @@
 #include <collide/point_segment_signed_distance.hpp>
 #include <collide/point_sphere_overlap.hpp>
 #include <collide/point_sphere_signed_distance.hpp>
+#include <collide/point_triangle_signed_distance.hpp>
+#include <collide/prepared.hpp>
 #include <collide/ray_aabox.hpp>
 #include <collide/segment_box_overlap.hpp>
+#include <collide/segment_box_signed_distance.hpp>
 #include <collide/segment_capsule_overlap.hpp>
 #include <collide/segment_capsule_signed_distance.hpp>
 #include <collide/segment_segment_signed_distance.hpp>
 #include <collide/segment_triangle_overlap.hpp>
+#include <collide/segment_triangle_signed_distance.hpp>
+#include <collide/shapes.hpp>
 #include <collide/slide_direction.hpp>
 #include <collide/sphere_box_overlap.hpp>
 #include <collide/sphere_box_penetration.hpp>
+#include <collide/sphere_box_signed_distance.hpp>
 #include <collide/sphere_capsule_overlap.hpp>
 #include <collide/sphere_capsule_signed_distance.hpp>
 #include <collide/sphere_plane_penetration.hpp>
@@ -76,5 +79,13 @@
 #include <collide/sphere_sphere_penetration.hpp>
 #include <collide/sphere_sphere_signed_distance.hpp>
 #include <collide/sphere_triangle_overlap.hpp>
+#include <collide/sphere_triangle_signed_distance.hpp>
+#include <collide/tiers.hpp>
 #include <collide/triangle_box_overlap.hpp>
+#include <collide/triangle_box_signed_distance.hpp>
 #include <collide/triangle_triangle_overlap.hpp>
+#include <collide/triangle_triangle_signed_distance.hpp>
+#include <collide/vec3.hpp>
+#include <collide/version.hpp>
+
+// The queries.

@@ -78,13 +78,27 @@ constexpr long double abs(long double x) noexcept { return __builtin_fabsl(x); }
 inline float fma(float a, float b, float c) noexcept { return __builtin_fmaf(a, b, c); }
 inline double fma(double a, double b, double c) noexcept { return __builtin_fma(a, b, c); }
 
-/// x * 2^power.
-inline float ldexp(float x, int power) noexcept { return __builtin_ldexpf(x, power); }
-inline double ldexp(double x, int power) noexcept { return __builtin_ldexp(x, power); }
+/// x * 2^power. A product with a power of two that is a normal number rounds as the library's function does, which is a
+/// call.
+inline float ldexp(float x, int power) noexcept {
+  if (power >= -126 && power <= 127) return x * __builtin_bit_cast(float, unsigned(power + 127) << 23);
+  return __builtin_ldexpf(x, power);
+}
+inline double ldexp(double x, int power) noexcept {
+  if (power >= -1022 && power <= 1023)
+    return x * __builtin_bit_cast(double, static_cast<unsigned long long>(power + 1023) << 52);
+  return __builtin_ldexp(x, power);
+}
 
 /// The exponent of x, which is finite and not zero: 2^exponent <= |x| < 2^(exponent + 1).
-inline int ilogb(float x) noexcept { return __builtin_ilogbf(x); }
-inline int ilogb(double x) noexcept { return __builtin_ilogb(x); }
+inline int ilogb(float x) noexcept {
+  const int biased = int(__builtin_bit_cast(unsigned, x) >> 23 & 0xFF);
+  return biased != 0 ? biased - 127 : __builtin_ilogbf(x);
+}
+inline int ilogb(double x) noexcept {
+  const int biased = int(__builtin_bit_cast(unsigned long long, x) >> 52 & 0x7FF);
+  return biased != 0 ? biased - 1023 : __builtin_ilogb(x);
+}
 
 #else
 

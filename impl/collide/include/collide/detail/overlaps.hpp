@@ -124,6 +124,17 @@ Vec3<T> perpendicular_part(const Vec3<T>& v, const Vec3<T>& direction) {
   }
 }
 
+/// A vector perpendicular to both, zero where they are parallel; in machine numbers, perhaps another one.
+template <class Tier, class T>
+Vec3<T> across_edges(const Vec3<T>& d, const Vec3<T>& e) {
+  const Vec3<T> normal = Tier::cross(d, e);
+  if constexpr (MachineNumber<T>) {
+    return perpendicular_part<Tier>(perpendicular_part<Tier>(normal, d), e);
+  } else {
+    return normal;
+  }
+}
+
 /// The normal of a triangle with these sides, which have these directions; any length. In machine numbers that of the
 /// two shorter sides, which loses the fewest digits, without its part along the longest side: what is left of its error
 /// turns the plane about that side, so it moves no vertex by more than an error of the sides.
@@ -193,21 +204,13 @@ class SeparationOfCores {
     }
     for (const Vec3<T>& d : a_.directions) {
       for (const Vec3<T>& e : b_.directions) {
-        if (separates(across(d, e))) return true;
+        if (separates(across_edges<Tier>(d, e))) return true;
       }
     }
     return false;
   }
 
  private:
-  static Vec3<T> across(const Vec3<T>& d, const Vec3<T>& e) {
-    const Vec3<T> normal = Tier::cross(d, e);
-    if constexpr (MachineNumber<T>) {
-      return perpendicular_part<Tier>(perpendicular_part<Tier>(normal, d), e);
-    } else {
-      return normal;
-    }
-  }
   /// Directions between the edges of `one` and the vertices of `other`.
   template <class One, class Other>
   bool between_edges(const One& one, const Other& other) const {

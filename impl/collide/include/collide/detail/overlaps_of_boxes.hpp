@@ -19,13 +19,17 @@ struct CoreOfBox : Core<T, 8> {
   bool has_volume = false;
 };
 
+template <class T>
+const Vec3<T>& any_point_of(const Box<T>& box) {
+  return box.center;
+}
+
 /// Vertex i is center + sum over axes k of (bit k of i ? +1 : -1) * half[k] * axis k.
-template <class Tier, class T>
-CoreOfBox<T> core_of(const Box<T>& box, const Vec3<T>& origin) {
+template <class T>
+CoreOfBox<T> core_of_box(const Vec3<T>& center, const Axes<T>& axes, const Vec3<T>& half) {
   CoreOfBox<T> core;
-  const Axes<T> axes = axes_of(box.orientation);
-  core.center = box.center - origin;
-  core.reach = {axes[0] * box.half.x, axes[1] * box.half.y, axes[2] * box.half.z};
+  core.center = center;
+  core.reach = {axes[0] * half.x, axes[1] * half.y, axes[2] * half.z};
   int edge = 0;
   for (int i = 0; i < 8; ++i) {
     Vec3<T> to_corner{};
@@ -38,8 +42,12 @@ CoreOfBox<T> core_of(const Box<T>& box, const Vec3<T>& origin) {
   }
   core.directions = core.normals = axes;
   core.count_of_normals = 3;
-  core.has_volume = box.half.x > T(0) && box.half.y > T(0) && box.half.z > T(0);
+  core.has_volume = half.x > T(0) && half.y > T(0) && half.z > T(0);
   return core;
+}
+template <class Tier, class T>
+CoreOfBox<T> core_of(const Box<T>& box, const Vec3<T>& origin) {
+  return core_of_box(box.center - origin, axes_of(box.orientation), box.half);
 }
 
 template <class Tier, class T>
