@@ -16,7 +16,8 @@ template <class T>
 struct CoreOfBox : Core<T, 8> {
   Vec3<T> center{};
   std::array<Vec3<T>, 3> reach{};  ///< from the center to the middle of a face
-  bool has_volume = false;
+  unsigned flat = 0;               ///< bit k is set if the box has no extent along axis k
+  bool has_volume() const { return flat == 0; }
 };
 
 template <class T>
@@ -42,7 +43,7 @@ CoreOfBox<T> core_of_box(const Vec3<T>& center, const Axes<T>& axes, const Vec3<
   }
   core.directions = core.normals = axes;
   core.count_of_normals = 3;
-  core.has_volume = half.x > T(0) && half.y > T(0) && half.z > T(0);
+  core.flat = unsigned(!(half.x > T(0))) | unsigned(!(half.y > T(0))) << 1 | unsigned(!(half.z > T(0))) << 2;
   return core;
 }
 template <class Tier, class T>
@@ -119,7 +120,7 @@ inline Decision<T> overlap(const Triangle<T>& triangle, const Box<T>& box) {
     const detail::CoreOfBox<T> second = detail::core_of<Tier>(box, triangle.v0);
     const auto first = detail::core_of<Tier>(triangle, triangle.v0);
     const auto separation = detail::separation_of<Tier>(first, second);
-    return {!(second.has_volume ? separation.between_faces_and_edges() : separation.exists())};
+    return {!(second.has_volume() ? separation.between_faces_and_edges() : separation.exists())};
   }
 }
 template <class Tier, class T>

@@ -146,39 +146,56 @@ struct Guess {
   double rounding;
 };
 
-/// The vertices of a core that may be furthest along a direction.
-template <int most>
-Vertices furthest_vertices(const Core<double, most>& core, const Vec3<double>& direction, double rounding) {
-  const double level = projected<Plain>(core, direction).most - 2 * rounding;
-  Vertices furthest = 0;
-  for (int i = 0; i < most; ++i) furthest |= Vertices(Plain::dot(direction, core.vertices[i]) >= level) << i;
-  return furthest;
+/// The vertices of a core without those that are equal to another one because a box is flat. Exact numbers that are equal
+/// are dear to compare.
+template <class T, int most>
+constexpr Vertices distinct_vertices(const Core<T, most>&) {
+  return all_vertices<most>;
+}
+template <class T>
+constexpr Vertices distinct_vertices(const CoreOfBox<T>& box) {
+  Vertices distinct = all_vertices<8>;
+  for (int axis = 0; axis < 3; ++axis) {
+    if ((box.flat >> axis & 1) != 0) distinct &= on_side(axis, false);
+  }
+  return distinct;
 }
 
-/// Calls f(i) for each vertex of a core that is not among these, while f returns true.
-template <int most, class F>
-bool each_other_vertex(Vertices among, F&& f) {
-  for (int i = 0; i < most; ++i) {
-    if ((among >> i & 1) == 0 && !f(i)) return false;
+/// The distinct vertices of a core that may be furthest along a direction.
+template <class DoubleCore>
+Vertices furthest_vertices(const DoubleCore& core, const Vec3<double>& direction, double rounding) {
+  const double level = projected<Plain>(core, direction).most - 2 * rounding;
+  Vertices furthest = 0;
+  for (std::size_t i = 0; i < core.vertices.size(); ++i)
+    furthest |= Vertices(Plain::dot(direction, core.vertices[i]) >= level) << i;
+  return furthest & distinct_vertices(core);
+}
+
+/// Calls f(v) for each distinct vertex of a core that is not among these, while f returns true.
+template <class AnyCore, class F>
+bool each_other_vertex(const AnyCore& core, Vertices among, F&& f) {
+  for (Vertices others = distinct_vertices(core) & ~among; others != 0; others &= others - 1) {
+    if (!f(core.vertices[std::countr_zero(others)])) return false;
   }
   return true;
 }
 
 /// Whether no vertex is further along the way than the end of its core, so that no way is shorter. The way is
 /// perpendicular to the features that its ends are within.
-template <class Tier, class T, int of_a, int of_b>
-bool is_shortest(const WayBetween<T>& way, const Core<T, of_a>& a, const Core<T, of_b>& b) {
+template <class Tier, class T, class A, class B>
+bool is_shortest(const WayBetween<T>& way, const A& a, const B& b) {
   const Vec3<T> to = way.from + way.way;
-  return each_other_vertex<of_a>(way.from_of,
-                                 [&](int i) { return Tier::dot(way.way, a.vertices[i] - way.from) <= T(0); }) &&
-         each_other_vertex<of_b>(way.to_of, [&](int k) { return Tier::dot(way.way, b.vertices[k] - to) >= T(0); });
+  return each_other_vertex(a, way.from_of,
+                           [&](const Vec3<T>& v) { return Tier::dot(way.way, v - way.from) <= T(0); }) &&
+         each_other_vertex(b, way.to_of, [&](const Vec3<T>& v) { return Tier::dot(way.way, v - to) >= T(0); });
 }
 
 /// A way between cores that are apart which proves to be a shortest one, between features that doubles propose. Each
 /// set of vertices contains the one before.
-template <class Tier, class T, int of_a, int of_b, class Proposal>
-std::optional<WayBetween<T>> proved_shortest_way(const Core<T, of_a>& a, const Core<T, of_b>& b,
-                                                 const Proposal& guess) {
+template <class Tier, class A, class B, class Proposal>
+auto proved_shortest_way(const A& a, const B& b, const Proposal& guess)
+    -> std::optional<WayBetween<typename A::Number>> {
+  using T = typename A::Number;
   const Vertices near_a = furthest_vertices(guess.a, guess.normal, guess.rounding);
   const Vertices near_b = furthest_vertices(guess.b, -guess.normal, guess.rounding);
   const auto proposed = shortest_way_among<Plain>(guess.a, near_a, guess.b, near_b);
@@ -225,9 +242,9 @@ auto facet_of_most(const A& a, const B& b) {
 /// The way between what is furthest along a facet's direction, the second core moved back by `out`: of no length, if
 /// the cores touch there. It is between vertices that doubles propose, if every other vertex is less far than one of
 /// these; nullopt if not.
-template <class Tier, class T, int of_a, int of_b, class Proposal>
-std::optional<WayBetween<T>> way_along_facet(const Core<T, of_a>& a, const Core<T, of_b>& b, const Vec3<T>& out,
-                                             const FacetOfMost<T>& most, const Proposal& guess) {
+template <class Tier, class T, class A, class B, class Proposal>
+std::optional<WayBetween<T>> way_along_facet(const A& a, const B& b, const Vec3<T>& out, const FacetOfMost<T>& most,
+                                             const Proposal& guess) {
   Vec3<double> along{};
   int number = 0;
   for_each_facet<Plain>(guess.a, guess.b, [&](const Vec3<double>& facet) {
@@ -238,8 +255,8 @@ std::optional<WayBetween<T>> way_along_facet(const Core<T, of_a>& a, const Core<
   if (near_a == 0 || near_b == 0) return std::nullopt;
   const Vec3<T>&of = a.vertices[std::countr_zero(near_a)], &to = b.vertices[std::countr_zero(near_b)];
   const bool among_these =
-      each_other_vertex<of_a>(near_a, [&](int i) { return Tier::dot(most.direction, a.vertices[i] - of) < T(0); }) &&
-      each_other_vertex<of_b>(near_b, [&](int k) { return Tier::dot(most.direction, b.vertices[k] - to) > T(0); });
+      each_other_vertex(a, near_a, [&](const Vec3<T>& v) { return Tier::dot(most.direction, v - of) < T(0); }) &&
+      each_other_vertex(b, near_b, [&](const Vec3<T>& v) { return Tier::dot(most.direction, v - to) > T(0); });
   if (!among_these) return std::nullopt;
   return shortest_way_among<Tier>(a, near_a, moved_by(-out, b), near_b);
 }
