@@ -121,6 +121,7 @@ class RangeFlags {
 /// type, multiplied by the ratio of the unit roundoffs. `M` is long double where that has 64 bits, or a double-word.
 template <class Scalar, class M>
 struct HighPrecision {
+  static constexpr bool follows_decisions = true;  ///< of Bounded, without doubt (signed_distances.hpp)
   M value{};
 
   constexpr HighPrecision() = default;

@@ -201,23 +201,38 @@ std::optional<WayBetween<T>> way_from_face(const Core<T, 8>& box, const Vec3<T>&
   return way;
 }
 
-/// Calls f(way) for the ways from the faces whose vertices are all among `of`, to a point across them.
-template <class Tier, class T, class F>
-void for_each_way_from_faces(const Core<T, 3>& triangle, Vertices of, const Vec3<T>& point, F&& f) {
-  if (of != all_vertices<3>) return;
-  if (const auto way = way_from_face<Tier>(triangle, point)) f(*way);
+/// The way from within a face, given by its vertices, to a point across it. None where the point is not across.
+template <class Tier, class T>
+std::optional<WayBetween<T>> way_from_one_face(const Core<T, 3>& triangle, Vertices, const Vec3<T>& point) {
+  return way_from_face<Tier>(triangle, point);
 }
-template <class Tier, class T, class F>
-void for_each_way_from_faces(const Core<T, 8>& box, Vertices of, const Vec3<T>& point, F&& f) {
+template <class Tier, class T>
+std::optional<WayBetween<T>> way_from_one_face(const Core<T, 8>& box, Vertices face, const Vec3<T>& point) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool further : {false, true}) {
-      const Vertices face = on_side(axis, further);
-      if ((face & ~of) != 0) continue;
+      if (face != on_side(axis, further)) continue;
       const auto is_beside = [&](int other) { return beyond<Tier>(box, other, point) != T(0); };
-      if (is_beside((axis + 1) % 3) || is_beside((axis + 2) % 3)) continue;
+      if (is_beside((axis + 1) % 3) || is_beside((axis + 2) % 3)) return std::nullopt;
       const Vec3<T>& direction = box.directions[axis];
       const Vec3<T> way = direction * Tier::dot(direction, point - box.vertices[further ? 7 : 0]);
-      f(WayBetween<T>{point - way, way, face});
+      return WayBetween<T>{point - way, way, face};
+    }
+  }
+  return std::nullopt;
+}
+
+/// Calls f(way) for the ways from the faces whose vertices are all among `of`, to a point across them.
+template <class Tier, class T, int most, class F>
+void for_each_way_from_faces(const Core<T, most>& core, Vertices of, const Vec3<T>& point, F&& f) {
+  const auto from = [&](Vertices face) {
+    if ((face & ~of) != 0) return;
+    if (const auto way = way_from_one_face<Tier>(core, face, point)) f(*way);
+  };
+  if constexpr (most == 3) {
+    from(all_vertices<3>);
+  } else {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const bool further : {false, true}) from(on_side(axis, further));
     }
   }
 }
@@ -365,6 +380,62 @@ template <class Tier, class T, int of_a, int of_b>
                            [&](const WayBetween<T>& way) { shortest.template consider<Tier>(way); });
   if (!shortest.any()) return std::nullopt;
   return shortest.way();
+}
+
+/// The number of the edge of a core that has these two vertices; none where they are no edge.
+template <class T, int most>
+std::optional<int> edge_with_ends(const Core<T, most>& core, Vertices ends) {
+  for (int i = 0; i < count_of_edges(core); ++i) {
+    if (of_edge(core, i) == ends) return i;
+  }
+  return std::nullopt;
+}
+
+/// The shortest way between two features, each given by its vertices: vertices and edges, or a face and a vertex that
+/// is across it. None of other features.
+template <class Tier, class T, int of_a, int of_b>
+[[gnu::noinline]] std::optional<WayBetween<T>> way_between_features(const Core<T, of_a>& a, Vertices of,
+                                                                    const Core<T, of_b>& b, Vertices to) {
+  const int count_a = std::popcount(of), count_b = std::popcount(to);
+  const Vec3<T>&vertex_a = a.vertices[std::countr_zero(of)], &vertex_b = b.vertices[std::countr_zero(to)];
+  if (count_a == 1 && count_b == 1) return WayBetween<T>{vertex_a, vertex_b - vertex_a, of, to};
+  if constexpr (of_a >= 3) {
+    if (count_a > 2 && count_b == 1) {
+      std::optional<WayBetween<T>> way = way_from_one_face<Tier>(a, of, vertex_b);
+      if (way) way->to_of = to;
+      return way;
+    }
+  }
+  if constexpr (of_b >= 3) {
+    if (count_a == 1 && count_b > 2) {
+      const std::optional<WayBetween<T>> back = way_from_one_face<Tier>(b, to, vertex_a);
+      return back ? std::optional(WayBetween<T>{vertex_a, -back->way, of, to}) : std::nullopt;
+    }
+  }
+  if (count_a > 2 || count_b > 2) return std::nullopt;
+  if constexpr (of_a > 1) {
+    if (count_a == 2) {
+      const std::optional<int> i = edge_with_ends(a, of);
+      if (!i) return std::nullopt;
+      if constexpr (of_b > 1) {
+        if (count_b == 2) {
+          const std::optional<int> k = edge_with_ends(b, to);
+          return k ? std::optional(way_between_edges<Tier>(a, *i, b, *k)) : std::nullopt;
+        }
+      }
+      WayBetween<T> way = shortest_way<Tier>(edge_of(a, *i), vertex_b);
+      way.from_of = of_edge(a, *i, way.from_of), way.to_of = to;
+      return way;
+    }
+  }
+  if constexpr (of_b > 1) {
+    if (const std::optional<int> k = edge_with_ends(b, to)) {
+      WayBetween<T> way = shortest_way<Tier>(vertex_a, edge_of(b, *k));
+      way.from_of = of, way.to_of = of_edge(b, *k, way.to_of);
+      return way;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace collide::detail

@@ -102,7 +102,18 @@ ApartAlong<T> apart_along(const Core<T, of_a>& a, const Core<T, of_b>& b) {
 
 // Of two cores of which one is a triangle or a box.
 
-/// Calls f(direction) for the directions of the facets of the difference of the cores, any length.
+/// The direction of a facet of the difference of the cores, any length: of a face of one of them, or across an edge of
+/// each.
+template <class Tier, class T, int of_a, int of_b>
+Vec3<T> facet_of(const Core<T, of_a>& a, const Core<T, of_b>& b, int facet) {
+  if (facet < a.count_of_normals) return a.normals[facet];
+  facet -= a.count_of_normals;
+  if (facet < b.count_of_normals) return b.normals[facet];
+  facet -= b.count_of_normals;
+  constexpr int of_second = int(std::tuple_size_v<decltype(b.directions)>);
+  return across_edges<Tier>(a.directions[facet / of_second], b.directions[facet % of_second]);
+}
+/// Calls f(direction) for each facet, in the order of their numbers.
 template <class Tier, class T, int of_a, int of_b, class F>
 void for_each_facet(const Core<T, of_a>& a, const Core<T, of_b>& b, F&& f) {
   for (int i = 0; i < a.count_of_normals; ++i) f(a.normals[i]);
@@ -136,18 +147,33 @@ Vec3<T> across_some_edge(const Core<T, of_a>& a, const Core<T, of_b>& b) {
   return {T(1), T(0), T(0)};
 }
 
-/// What doubles say of two cores, for exact numbers to prove: the cores, a direction in which they are apart by the
-/// most, and how much rounding may change of a place.
+/// What doubles say of two cores, for other numbers to prove: the cores, a direction in which they are apart by the
+/// most, by how much, and how much rounding may change of a place.
 template <class A, class B>
 struct Guess {
   A a;
   B b;
   Vec3<double> normal;
+  double apart;
   double rounding;
 };
 
-/// The vertices of a core without those that are equal to another one because a box is flat. Exact numbers that are equal
-/// are dear to compare.
+/// What has been proved of two cores: they are apart, and the shortest way is between these features; or they overlap
+/// by the least along this facet, and these features meet when they are moved apart.
+struct Proved {
+  bool apart;
+  int facet = -1;
+  bool opposite = false;
+  Vertices of, to;
+};
+
+/// Whether each comparison of numbers of this type has the result that numbers with error bounds had before. So what
+/// these have proved need not be proved again.
+template <class T>
+concept FollowsDecisions = requires { T::follows_decisions; };
+
+/// The vertices of a core without those that are equal to another one because a box is flat. Exact numbers that are
+/// equal are dear to compare.
 template <class T, int most>
 constexpr Vertices distinct_vertices(const Core<T, most>&) {
   return all_vertices<most>;
@@ -190,24 +216,25 @@ bool is_shortest(const WayBetween<T>& way, const A& a, const B& b) {
          each_other_vertex(b, way.to_of, [&](const Vec3<T>& v) { return Tier::dot(way.way, v - to) >= T(0); });
 }
 
-/// A way between cores that are apart which proves to be a shortest one, between features that doubles propose. Each
-/// set of vertices contains the one before.
-template <class Tier, class A, class B, class Proposal>
-auto proved_shortest_way(const A& a, const B& b, const Proposal& guess)
+/// A way between cores that are apart which proves to be a shortest one, between features that doubles propose.
+template <class Tier, class A, class B, class Guess>
+auto proved_shortest_way(const A& a, const B& b, const Guess& guess, std::optional<Proved>& proved)
     -> std::optional<WayBetween<typename A::Number>> {
   using T = typename A::Number;
   const Vertices near_a = furthest_vertices(guess.a, guess.normal, guess.rounding);
   const Vertices near_b = furthest_vertices(guess.b, -guess.normal, guess.rounding);
   const auto proposed = shortest_way_among<Plain>(guess.a, near_a, guess.b, near_b);
   if (!proposed) return std::nullopt;
-  const auto among = [&](Vertices of, Vertices to) -> std::optional<WayBetween<T>> {
-    const auto way = shortest_way_among<Tier>(a, of, b, to);
-    if (way && Tier::dot(way->way, way->way) > T(0) && is_shortest<Tier>(*way, a, b)) return way;
-    return std::nullopt;
+  const auto is_proved = [&](const std::optional<WayBetween<T>>& way) {
+    return way && Tier::dot(way->way, way->way) > T(0) && is_shortest<Tier>(*way, a, b);
   };
-  if (const auto way = among(proposed->from_of, proposed->to_of)) return way;
-  if (proposed->from_of == near_a && proposed->to_of == near_b) return std::nullopt;
-  return among(near_a, near_b);
+  const Vertices of = proposed->from_of, to = proposed->to_of;
+  if (const auto way = way_between_features<Tier>(a, of, b, to); is_proved(way)) {
+    proved = {.apart = true, .of = of, .to = to};
+    return way;
+  }
+  const auto way = shortest_way_among<Tier>(a, near_a, b, near_b);
+  return is_proved(way) ? way : std::nullopt;
 }
 
 /// The direction of the facet of the difference of two cores along which they are apart by the most: the facet's number
@@ -219,37 +246,39 @@ struct FacetOfMost {
   Vec3<T> direction{};
   T gap{}, length2{};
 };
+/// Calls f for both directions of a facet that has one.
+template <class Tier, class T, class A, class B, class F>
+void with_both_sides(const Vec3<T>& facet, int number, const A& a, const B& b, F&& f) {
+  const T length2 = Tier::dot(facet, facet);
+  if (!(length2 > T(0))) return;
+  const ProjectedRange<T> on_a = projected<Tier>(a, facet), on_b = projected<Tier>(b, facet);
+  f(FacetOfMost<T>{number, false, facet, on_b.least - on_a.most, length2});
+  f(FacetOfMost<T>{number, true, -facet, on_a.least - on_b.most, length2});
+}
 template <class Tier, class A, class B>
 auto facet_of_most(const A& a, const B& b) {
   using T = typename A::Number;
   FacetOfMost<T> most;
   int number = 0;
   for_each_facet<Tier>(a, b, [&](const Vec3<T>& facet) {
-    const int of = number++;
-    const T length2 = Tier::dot(facet, facet);
-    if (!(length2 > T(0))) return;
-    const ProjectedRange<T> on_a = projected<Tier>(a, facet), on_b = projected<Tier>(b, facet);
-    for (const bool opposite : {false, true}) {
-      const T gap = opposite ? on_a.least - on_b.most : on_b.least - on_a.most;
+    with_both_sides<Tier>(facet, number++, a, b, [&](const FacetOfMost<T>& side) {
       // gap |gap| / |direction|^2 grows with gap / |direction|
-      if (most.facet < 0 || gap * abs(gap) * most.length2 > most.gap * abs(most.gap) * length2)
-        most = {of, opposite, opposite ? -facet : facet, gap, length2};
-    }
+      if (most.facet < 0 || side.gap * abs(side.gap) * most.length2 > most.gap * abs(most.gap) * side.length2)
+        most = side;
+    });
   });
   return most;
 }
 
 /// The way between what is furthest along a facet's direction, the second core moved back by `out`: of no length, if
 /// the cores touch there. It is between vertices that doubles propose, if every other vertex is less far than one of
-/// these; nullopt if not.
-template <class Tier, class T, class A, class B, class Proposal>
+/// these; nullopt if not. Cores that touch there have a common point between these vertices; so do two features that
+/// have these and no other vertices.
+template <class Tier, class T, class A, class B, class Guess>
 std::optional<WayBetween<T>> way_along_facet(const A& a, const B& b, const Vec3<T>& out, const FacetOfMost<T>& most,
-                                             const Proposal& guess) {
-  Vec3<double> along{};
-  int number = 0;
-  for_each_facet<Plain>(guess.a, guess.b, [&](const Vec3<double>& facet) {
-    if (number++ == most.facet && !(facet == Vec3<double>{})) along = unit_of<Plain>(most.opposite ? -facet : facet);
-  });
+                                             const Guess& guess, std::optional<Proved>& proved) {
+  const Vec3<double> facet = facet_of<Plain>(guess.a, guess.b, most.facet);
+  const Vec3<double> along = facet == Vec3<double>{} ? facet : unit_of<Plain>(most.opposite ? -facet : facet);
   const Vertices near_a = furthest_vertices(guess.a, along, guess.rounding);
   const Vertices near_b = furthest_vertices(guess.b, -along, guess.rounding);
   if (near_a == 0 || near_b == 0) return std::nullopt;
@@ -258,34 +287,73 @@ std::optional<WayBetween<T>> way_along_facet(const A& a, const B& b, const Vec3<
       each_other_vertex(a, near_a, [&](const Vec3<T>& v) { return Tier::dot(most.direction, v - of) < T(0); }) &&
       each_other_vertex(b, near_b, [&](const Vec3<T>& v) { return Tier::dot(most.direction, v - to) > T(0); });
   if (!among_these) return std::nullopt;
-  return shortest_way_among<Tier>(a, near_a, moved_by(-out, b), near_b);
+  const auto moved = moved_by(-out, b);
+  if (const auto way = way_between_features<Tier>(a, near_a, moved, near_b)) {
+    proved = {.apart = false, .facet = most.facet, .opposite = most.opposite, .of = near_a, .to = near_b};
+    return way;
+  }
+  return shortest_way_among<Tier>(a, near_a, moved, near_b);
+}
+
+/// The answer along a shortest way.
+template <class Tier, class T>
+ApartAlong<T> along_way(const WayBetween<T>& way) {
+  const T length = sqrt(Tier::dot(way.way, way.way));
+  return {way.way * (T(1) / length), length, way.from, way.way};
+}
+/// How far the second core is moved back along a facet of overlapping ones until they touch.
+template <class T>
+Vec3<T> out_of(const FacetOfMost<T>& most) {
+  return most.direction * (most.gap / most.length2);
+}
+/// The answer along a facet of overlapping cores, whose first point is `from`.
+template <class Tier, class T>
+ApartAlong<T> along_facet(const FacetOfMost<T>& most, const Vec3<T>& from) {
+  const T length = sqrt(most.length2);
+  return {most.direction * (T(1) / length), most.gap / length, from, out_of(most)};
+}
+
+/// The answer from what has been proved.
+template <class Tier, class A, class B>
+[[gnu::noinline]] auto apart_as_proved(const A& a, const B& b, const Proved& proved) {
+  using T = typename A::Number;
+  if (proved.apart) return along_way<Tier>(*way_between_features<Tier>(a, proved.of, b, proved.to));
+  FacetOfMost<T> most;
+  with_both_sides<Tier>(facet_of<Tier>(a, b, proved.facet), proved.facet, a, b, [&](const FacetOfMost<T>& side) {
+    if (side.opposite == proved.opposite) most = side;
+  });
+  return along_facet<Tier>(most, way_between_features<Tier>(a, proved.of, moved_by(-out_of(most), b), proved.to)->from);
 }
 
 /// Of exact numbers, and of those with error bounds. Cores that overlap along each facet of their difference do so
 /// least along one of them, and have a common point when they are moved apart by as much. Otherwise a shortest way is
 /// the answer, unless they touch. What doubles propose is tried first: a proof of an answer is short, a search is not.
 template <class Tier, class A, class B, class Proposal>
-[[gnu::noinline]] auto exactly_apart(const A& a, const B& b, const Proposal& guess) {
+[[gnu::noinline]] auto exactly_apart(const A& a, const B& b, Proposal& proposal) {
   using T = typename A::Number;
-  const auto along = [](const WayBetween<T>& way) {
-    const T length = sqrt(Tier::dot(way.way, way.way));
-    return ApartAlong<T>{way.way * (T(1) / length), length, way.from, way.way};
-  };
-  if (const auto way = proved_shortest_way<Tier>(a, b, guess)) return along(*way);
+  std::optional<Proved>& proved = proposal.proved;
+  if constexpr (FollowsDecisions<T>) {
+    if (proved) return apart_as_proved<Tier>(a, b, *proved);
+  }
+  proved.reset();
+  const auto& guess = proposal.guess();
+  const bool seem_to_overlap = guess.apart < -guess.rounding;
+  if (!seem_to_overlap) {
+    if (const auto way = proved_shortest_way<Tier>(a, b, guess, proved)) return along_way<Tier>(*way);
+  }
   const FacetOfMost<T> most = facet_of_most<Tier>(a, b);
   if (most.facet >= 0 && most.gap < T(0)) {
-    const T length = sqrt(most.length2);
-    const Vec3<T> out = most.direction * (most.gap / most.length2);
-    std::optional<WayBetween<T>> way = way_along_facet<Tier>(a, b, out, most, guess);
-    if (!way) way = shortest_of_ways<Tier>(a, moved_by(-out, b));
-    return ApartAlong<T>{most.direction * (T(1) / length), most.gap / length, way->from, out};
+    std::optional<WayBetween<T>> way = way_along_facet<Tier>(a, b, out_of(most), most, guess, proved);
+    if (!way) way = shortest_of_ways<Tier>(a, moved_by(-out_of(most), b));
+    return along_facet<Tier>(most, way->from);
   }
   if (most.facet >= 0 && most.gap == T(0)) {
-    const auto way = way_along_facet<Tier>(a, b, Vec3<T>{}, most, guess);
+    const auto way = way_along_facet<Tier>(a, b, Vec3<T>{}, most, guess, proved);
     if (way && way->way == Vec3<T>{}) return ApartAlong<T>{unit_of<Tier>(most.direction), T(0), way->from, {}};
   }
+  proved.reset();
   const WayBetween<T> way = shortest_of_ways<Tier>(a, b);
-  if (gap_along<Tier>(way.way, a, b) > T(0)) return along(way);
+  if (gap_along<Tier>(way.way, a, b) > T(0)) return along_way<Tier>(way);
   return ApartAlong<T>{
       unit_of<Tier>(most.facet >= 0 ? most.direction : across_some_edge<Tier>(a, b)), T(0), way.from, {}};
 }
@@ -653,22 +721,22 @@ SignedDistance<T> with_radii(const ApartAlong<T>& cores, const Vec3<T>& origin, 
 namespace kernels {
 
 template <class A, class B>
-[[gnu::noinline]] auto guess_between(const A& a, const B& b);
+class Proposal;
+template <class Tier, class A, class B, class Proposal>
+auto signed_distance(const A& a, const B& b, Proposal& proposal);
 
 /// The kernel of every signed distance of this kind.
 template <class Tier, class A, class B>
 inline auto signed_distance(const A& a, const B& b) {
   const auto& origin = detail::any_point_of(a);
-  const auto first = detail::core_of<Tier>(a, origin);
-  const auto second = detail::core_of<Tier>(b, origin);
-  const auto apart = [&] {
-    if constexpr (detail::needs_proof<decltype(first), decltype(second)>) {
-      return detail::exactly_apart<Tier>(first, second, guess_between(detail::in_doubles(a), detail::in_doubles(b)));
-    } else {
-      return detail::apart_along<Tier>(first, second);
-    }
-  }();
-  return detail::with_radii(apart, origin, first.radius, second.radius);
+  if constexpr (MachineNumber<std::remove_cvref_t<decltype(origin.x)>>) {
+    const auto first = detail::core_of<Tier>(a, origin);
+    const auto second = detail::core_of<Tier>(b, origin);
+    return detail::with_radii(detail::apart_along<Tier>(first, second), origin, first.radius, second.radius);
+  } else {
+    Proposal<A, B> proposal(a, b);
+    return signed_distance<Tier>(a, b, proposal);
+  }
 }
 /// Machine numbers: in the frame of the box, of the larger one of two, so that the size of a large box is in no number
 /// of a place within one of its faces.
@@ -691,13 +759,57 @@ inline SignedDistance<T> signed_distance(const A& a, const Box<T>& box) {
 
 /// What doubles say of two shapes.
 template <class A, class B>
-auto guess_between(const A& a, const B& b) {
+[[gnu::noinline]] auto guess_between(const A& a, const B& b) {
   const Vec3<double>& origin = detail::any_point_of(a);
   const auto first = detail::core_of<Plain>(a, origin);
   const auto second = detail::core_of<Plain>(b, origin);
   const double size = larger(detail::largest_coordinate(first), detail::largest_coordinate(second));
+  const SignedDistance<double> guess = signed_distance<Plain>(a, b);
   return detail::Guess<std::remove_const_t<decltype(first)>, std::remove_const_t<decltype(second)>>{
-      first, second, signed_distance<Plain>(a, b).normal, 64 * std::numeric_limits<double>::epsilon() * size};
+      first, second, guess.normal, guess.distance + (first.radius + second.radius),
+      64 * std::numeric_limits<double>::epsilon() * size};
+}
+
+/// What doubles say of two shapes, computed when it is asked for the first time, and what was proved of it.
+template <class A, class B>
+class Proposal {
+ public:
+  /// The shapes must live as long.
+  Proposal(const A& a, const B& b) : a_(a), b_(b) {}
+  const auto& guess() {
+    if (!guess_) guess_.emplace(guess_between(detail::in_doubles(a_), detail::in_doubles(b_)));
+    return *guess_;
+  }
+
+  std::optional<detail::Proved> proved;
+
+ private:
+  using OfDoubles = decltype(guess_between(detail::in_doubles(std::declval<const A&>()),
+                                           detail::in_doubles(std::declval<const B&>())));
+  const A& a_;
+  const B& b_;
+  std::optional<OfDoubles> guess_;
+};
+
+/// The same, for a proposal that serves the same shapes in other numbers.
+template <class Tier, class A, class B, class Proposal>
+auto signed_distance(const A& a, const B& b, Proposal& proposal) {
+  const auto& origin = detail::any_point_of(a);
+  using T = std::remove_cvref_t<decltype(origin.x)>;
+  if constexpr (MachineNumber<T>) {
+    return signed_distance<Tier>(a, b);
+  } else {
+    const auto first = detail::core_of<Tier>(a, origin);
+    const auto second = detail::core_of<Tier>(b, origin);
+    const auto apart = [&] {
+      if constexpr (detail::needs_proof<decltype(first), decltype(second)>) {
+        return detail::exactly_apart<Tier>(first, second, proposal);
+      } else {
+        return detail::apart_along<Tier>(first, second);
+      }
+    }();
+    return detail::with_radii(apart, origin, first.radius, second.radius);
+  }
 }
 
 }  // namespace kernels
@@ -732,7 +844,11 @@ constexpr Contract signed_distance(double backward) {
   template <class Tier, class T>                                                                      \
   inline SignedDistance<T> name(const First<T>& first, const Second<T>& second) {                     \
     if constexpr (Tier::template lifts<T>) {                                                          \
-      return COLLIDE_LIFTED(name, first, second);                                                     \
+      return Tier::lift(                                                                              \
+          [proposal = Proposal(first, second)](auto tier, const auto& a, const auto& b) mutable {     \
+            return signed_distance<decltype(tier)>(a, b, proposal);                                   \
+          },                                                                                          \
+          first, second);                                                                             \
     } else {                                                                                          \
       return signed_distance<Tier>(first, second);                                                    \
     }                                                                                                 \
