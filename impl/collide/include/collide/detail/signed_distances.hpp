@@ -313,16 +313,21 @@ ApartAlong<T> along_facet(const FacetOfMost<T>& most, const Vec3<T>& from) {
   return {most.direction * (T(1) / length), most.gap / length, from, out_of(most)};
 }
 
-/// The answer from what has been proved.
+/// The answer from what has been proved. None where numbers of more digits leave their range.
 template <class Tier, class A, class B>
-[[gnu::noinline]] auto apart_as_proved(const A& a, const B& b, const Proved& proved) {
+[[gnu::noinline]] auto apart_as_proved(const A& a, const B& b, const Proved& proved)
+    -> std::optional<ApartAlong<typename A::Number>> {
   using T = typename A::Number;
-  if (proved.apart) return along_way<Tier>(*way_between_features<Tier>(a, proved.of, b, proved.to));
+  if (proved.apart) {
+    const auto way = way_between_features<Tier>(a, proved.of, b, proved.to);
+    return way ? std::optional(along_way<Tier>(*way)) : std::nullopt;
+  }
   FacetOfMost<T> most;
   with_both_sides<Tier>(facet_of<Tier>(a, b, proved.facet), proved.facet, a, b, [&](const FacetOfMost<T>& side) {
     if (side.opposite == proved.opposite) most = side;
   });
-  return along_facet<Tier>(most, way_between_features<Tier>(a, proved.of, moved_by(-out_of(most), b), proved.to)->from);
+  const auto way = way_between_features<Tier>(a, proved.of, moved_by(-out_of(most), b), proved.to);
+  return way ? std::optional(along_facet<Tier>(most, way->from)) : std::nullopt;
 }
 
 /// Of exact numbers, and of those with error bounds. Cores that overlap along each facet of their difference do so
@@ -333,7 +338,9 @@ template <class Tier, class A, class B, class Proposal>
   using T = typename A::Number;
   std::optional<Proved>& proved = proposal.proved;
   if constexpr (FollowsDecisions<T>) {
-    if (proved) return apart_as_proved<Tier>(a, b, *proved);
+    if (proved) {
+      if (const auto apart = apart_as_proved<Tier>(a, b, *proved)) return *apart;
+    }
   }
   proved.reset();
   const auto& guess = proposal.guess();
