@@ -90,6 +90,7 @@ struct ApartAlong {
   Vec3<T> normal;
   T apart{};
   Vec3<T> from, way;
+  Vertices of = 0, to = 0;  ///< of a way that proves to be a shortest one: the features at its ends
 };
 
 template <class Tier, class T, int of_a, int of_b>
@@ -147,14 +148,13 @@ Vec3<T> across_some_edge(const Core<T, of_a>& a, const Core<T, of_b>& b) {
   return {T(1), T(0), T(0)};
 }
 
-/// What doubles say of two cores, for other numbers to prove: the cores, a direction in which they are apart by the
-/// most, by how much, and how much rounding may change of a place.
+/// What doubles say of two cores, for other numbers to prove: the cores, how they are apart, and how much rounding may
+/// change of a place.
 template <class A, class B>
 struct Guess {
   A a;
   B b;
-  Vec3<double> normal;
-  double apart;
+  ApartAlong<double> apart;
   double rounding;
 };
 
@@ -185,6 +185,20 @@ constexpr Vertices distinct_vertices(const CoreOfBox<T>& box) {
     if ((box.flat >> axis & 1) != 0) distinct &= on_side(axis, false);
   }
   return distinct;
+}
+
+/// These vertices, or the distinct ones that are equal to them.
+template <class T, int most>
+constexpr Vertices distinct_of(const Core<T, most>&, Vertices vertices) {
+  return vertices;
+}
+template <class T>
+constexpr Vertices distinct_of(const CoreOfBox<T>& box, Vertices vertices) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if ((box.flat >> axis & 1) == 0) continue;
+    vertices = (vertices & on_side(axis, false)) | (vertices & on_side(axis, true)) >> (1 << axis);
+  }
+  return vertices;
 }
 
 /// The distinct vertices of a core that may be furthest along a direction.
@@ -221,17 +235,25 @@ template <class Tier, class A, class B, class Guess>
 auto proved_shortest_way(const A& a, const B& b, const Guess& guess, std::optional<Proved>& proved)
     -> std::optional<WayBetween<typename A::Number>> {
   using T = typename A::Number;
-  const Vertices near_a = furthest_vertices(guess.a, guess.normal, guess.rounding);
-  const Vertices near_b = furthest_vertices(guess.b, -guess.normal, guess.rounding);
-  const auto proposed = shortest_way_among<Plain>(guess.a, near_a, guess.b, near_b);
-  if (!proposed) return std::nullopt;
   const auto is_proved = [&](const std::optional<WayBetween<T>>& way) {
     return way && Tier::dot(way->way, way->way) > T(0) && is_shortest<Tier>(*way, a, b);
   };
-  const Vertices of = proposed->from_of, to = proposed->to_of;
-  if (const auto way = way_between_features<Tier>(a, of, b, to); is_proved(way)) {
+  const auto between = [&](Vertices of, Vertices to) -> std::optional<WayBetween<T>> {
+    const auto way = way_between_features<Tier>(a, of, b, to);
+    if (!is_proved(way)) return std::nullopt;
     proved = {.apart = true, .of = of, .to = to};
     return way;
+  };
+  const Vertices of = distinct_of(guess.a, guess.apart.of), to = distinct_of(guess.b, guess.apart.to);
+  if (of != 0 && to != 0) {
+    if (const auto way = between(of, to)) return way;
+  }
+  const Vertices near_a = furthest_vertices(guess.a, guess.apart.normal, guess.rounding);
+  const Vertices near_b = furthest_vertices(guess.b, -guess.apart.normal, guess.rounding);
+  const auto proposed = shortest_way_among<Plain>(guess.a, near_a, guess.b, near_b);
+  if (!proposed) return std::nullopt;
+  if (proposed->from_of != of || proposed->to_of != to) {
+    if (const auto way = between(proposed->from_of, proposed->to_of)) return way;
   }
   const auto way = shortest_way_among<Tier>(a, near_a, b, near_b);
   return is_proved(way) ? way : std::nullopt;
@@ -337,14 +359,9 @@ template <class Tier, class A, class B, class Proposal>
 [[gnu::noinline]] auto exactly_apart(const A& a, const B& b, Proposal& proposal) {
   using T = typename A::Number;
   std::optional<Proved>& proved = proposal.proved;
-  if constexpr (FollowsDecisions<T>) {
-    if (proved) {
-      if (const auto apart = apart_as_proved<Tier>(a, b, *proved)) return *apart;
-    }
-  }
   proved.reset();
   const auto& guess = proposal.guess();
-  const bool seem_to_overlap = guess.apart < -guess.rounding;
+  const bool seem_to_overlap = guess.apart.apart < -guess.rounding;
   if (!seem_to_overlap) {
     if (const auto way = proved_shortest_way<Tier>(a, b, guess, proved)) return along_way<Tier>(*way);
   }
@@ -582,7 +599,8 @@ template <class Tier, class T, int of_a, int of_b, class Overlap>
   for (int step = 0; step < most_steps && least2 > T(0); ++step) {
     const Vec3<T> normal = normal_along<Tier>(shortest, a, b);
     if (defect_of<Tier>(normal, shortest, a, b) <= rounding)
-      return ApartAlong<T>{normal, Tier::dot(shortest.way, normal), shortest.from, shortest.way};
+      return ApartAlong<T>{
+          normal, Tier::dot(shortest.way, normal), shortest.from, shortest.way, shortest.from_of, shortest.to_of};
     if constexpr (of_a > 1) {
       const int on_a = furthest_vertex<Tier>(a, normal), on_b = furthest_vertex<Tier>(b, -normal);
       if (on_a == last_a && on_b == last_b) return std::nullopt;
@@ -612,7 +630,9 @@ template <class T, int most>
 }
 template <class T>
 ApartAlong<T> multiplied(const ApartAlong<T>& along, int power) {
-  return {along.normal, ldexp(along.apart, power), multiplied(along.from, power), multiplied(along.way, power)};
+  return {
+      along.normal, ldexp(along.apart, power), multiplied(along.from, power), multiplied(along.way, power), along.of,
+      along.to};
 }
 
 /// Of cores whose coordinates and their squares are far from the ends of the range.
@@ -634,7 +654,8 @@ template <class Tier, class T, int of_a, int of_b>
   const WayBetween<T>& way = ways.shortest();
   if (Tier::dot(way.way, way.way) > T(0)) {
     const Vec3<T> normal = normal_along<Tier>(way, a, b);
-    if (defect_of<Tier>(normal, way, a, b) <= rounding) return {normal, Tier::dot(way.way, normal), way.from, way.way};
+    if (defect_of<Tier>(normal, way, a, b) <= rounding)
+      return {normal, Tier::dot(way.way, normal), way.from, way.way, way.from_of, way.to_of};
   }
   if (of_b < 8 && least().overlap()) return least().of_facets();
   return least().of_all_directions(ways);
@@ -682,6 +703,14 @@ Core<T, 8> aligned_core(const Vec3<T>& half) {
   return core_of_box(Vec3<T>{}, Axes<T>{Vec3<T>{T(1), T(0), T(0)}, {T(0), T(1), T(0)}, {T(0), T(0), T(1)}}, half);
 }
 
+/// How a core in the frame of a box with these axes and half extents is apart from the box.
+template <class Tier, class T, int of_a>
+ApartAlong<T> apart_from_box(const Core<T, of_a>& core, const Axes<T>& axes, const Vec3<T>& half) {
+  const ApartAlong<T> local = apart_along<Tier>(core, aligned_core(half));
+  const auto out = [&](const Vec3<T>& v) { return out_of_frame(axes, components(v)); };
+  return {unit_of<Tier>(out(local.normal)), local.apart, out(local.from), out(local.way), local.of, local.to};
+}
+
 /// Whether cores of these types are apart by what exactly_apart tells: one of them is a triangle or a box, and the
 /// numbers are no machine numbers.
 template <class A, class B>
@@ -712,7 +741,7 @@ auto in_doubles(const Shape& shape) {
 /// The answer for cores with these radii, relative to the origin.
 template <class T>
 SignedDistance<T> with_radii(const ApartAlong<T>& cores, const Vec3<T>& origin, const T& radius1, const T& radius2) {
-  const auto& [normal, apart, from, way] = cores;
+  const auto& [normal, apart, from, way, of, to] = cores;
   const T distance = apart - (radius1 + radius2);
   // The point of the larger radius follows from the other one, so that both belong to the normal and the distance.
   if (radius1 <= radius2) {
@@ -758,10 +787,24 @@ inline SignedDistance<T> signed_distance(const A& a, const Box<T>& box) {
   }
   const Axes<T> axes = axes_of(box.orientation);
   const auto first = detail::core_in_frame<Tier>(axes, box.center, a);
-  const detail::ApartAlong<T> local = detail::apart_along<Tier>(first, detail::aligned_core(box.half));
-  const auto out = [&](const Vec3<T>& v) { return out_of_frame(axes, components(v)); };
-  return detail::with_radii({detail::unit_of<Tier>(out(local.normal)), local.apart, out(local.from), out(local.way)},
-                            box.center, first.radius, T(0));
+  return detail::with_radii(detail::apart_from_box<Tier>(first, axes, box.half), box.center, first.radius, T(0));
+}
+
+/// How doubles say that two shapes with these cores are apart, but for the points.
+template <class A, class B, class CoreA, class CoreB>
+detail::ApartAlong<double> doubles_apart(const A& a, const CoreA& first, const B& b, const CoreB& second) {
+  if constexpr (std::same_as<B, Box<double>>) {
+    if constexpr (std::same_as<A, Box<double>>) {
+      if (detail::largest(a.half) > detail::largest(b.half)) {
+        const auto back = doubles_apart(b, second, a, first);
+        return {-back.normal, back.apart, {}, {}, back.to, back.of};
+      }
+    }
+    const Axes<double> axes = axes_of(b.orientation);
+    return detail::apart_from_box<Plain>(detail::core_in_frame<Plain>(axes, b.center, a), axes, b.half);
+  } else {
+    return detail::apart_along<Plain>(first, second);
+  }
 }
 
 /// What doubles say of two shapes.
@@ -771,10 +814,8 @@ template <class A, class B>
   const auto first = detail::core_of<Plain>(a, origin);
   const auto second = detail::core_of<Plain>(b, origin);
   const double size = larger(detail::largest_coordinate(first), detail::largest_coordinate(second));
-  const SignedDistance<double> guess = signed_distance<Plain>(a, b);
   return detail::Guess<std::remove_const_t<decltype(first)>, std::remove_const_t<decltype(second)>>{
-      first, second, guess.normal, guess.distance + (first.radius + second.radius),
-      64 * std::numeric_limits<double>::epsilon() * size};
+      first, second, doubles_apart(a, first, b, second), 64 * std::numeric_limits<double>::epsilon() * size};
 }
 
 /// What doubles say of two shapes, computed when it is asked for the first time, and what was proved of it.
@@ -798,6 +839,30 @@ class Proposal {
   std::optional<OfDoubles> guess_;
 };
 
+/// The core of a shape; of a box, with the vertices that these features and its faces need.
+template <class Tier, class T, class Shape>
+auto core_with(detail::Vertices features, const Shape& shape, const Vec3<T>& origin) {
+  if constexpr (std::same_as<Shape, Box<T>>) {
+    return detail::core_of_box(shape.center - origin, axes_of(shape.orientation), shape.half, features | 1u | 1u << 7);
+  } else {
+    return detail::core_of<Tier>(shape, origin);
+  }
+}
+
+/// The signed distance from what has been proved; none without.
+template <class Tier, class A, class B>
+auto signed_distance_as_proved(const A& a, const B& b, const std::optional<detail::Proved>& proved) {
+  const auto& origin = detail::any_point_of(a);
+  using T = std::remove_cvref_t<decltype(origin.x)>;
+  std::optional<SignedDistance<T>> distance;
+  if (!proved) return distance;
+  const auto first = core_with<Tier>(proved->of, a, origin);
+  const auto second = core_with<Tier>(proved->to, b, origin);
+  if (const auto apart = detail::apart_as_proved<Tier>(first, second, *proved))
+    distance = detail::with_radii(*apart, origin, first.radius, second.radius);
+  return distance;
+}
+
 /// The same, for a proposal that serves the same shapes in other numbers.
 template <class Tier, class A, class B, class Proposal>
 auto signed_distance(const A& a, const B& b, Proposal& proposal) {
@@ -806,6 +871,9 @@ auto signed_distance(const A& a, const B& b, Proposal& proposal) {
   if constexpr (MachineNumber<T>) {
     return signed_distance<Tier>(a, b);
   } else {
+    if constexpr (detail::FollowsDecisions<T>) {
+      if (const auto apart = signed_distance_as_proved<Tier>(a, b, proposal.proved)) return *apart;
+    }
     const auto first = detail::core_of<Tier>(a, origin);
     const auto second = detail::core_of<Tier>(b, origin);
     const auto apart = [&] {
