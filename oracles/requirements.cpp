@@ -209,7 +209,8 @@ Certain touch_at_start(const Neighbourhood& n, const Start& s) {
     case Shape::point:
     case Shape::segment:
     case Shape::line:
-    case Shape::ray: break;
+    case Shape::ray:
+    case Shape::halfspace: break;
   }
   throw std::logic_error("no obstacle");
 }

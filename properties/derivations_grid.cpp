@@ -49,6 +49,25 @@ Body read_box(Reader& r) {
   return body;
 }
 
+struct HalfSpace {
+  V normal;
+  Q offset;
+
+  Q height(const V& x) const { return dot(normal, x) + offset; }
+};
+HalfSpace read_halfspace(Reader& r) {
+  const V normal = r.vector();
+  return {normal, r.number()};
+}
+/// The vertices that are least far along its normal.
+std::vector<V> lowest_of(const Body& body, const HalfSpace& halfspace) {
+  std::vector<V> lowest = body.vertices;
+  std::sort(lowest.begin(), lowest.end(),
+            [&](const V& a, const V& b) { return halfspace.height(a) < halfspace.height(b); });
+  while (halfspace.height(lowest.back()) > halfspace.height(lowest.front())) lowest.pop_back();
+  return lowest;
+}
+
 /// A convex combination of affinely independent points.
 struct Combination {
   std::vector<V> points;
@@ -143,6 +162,14 @@ Reference reference_overlap(Reader r) {
   const Body a = read_first(r), b = read_second(r);
   const Q reach = a.radius + b.radius;
   return square_of(nearest_to_origin(Difference(a, b).all).sum()) <= reach * reach ? yes() : no();
+}
+
+template <Body (*read_first)(Reader&), HalfSpace (*read_second)(Reader&)>
+Reference reference_overlap(Reader r) {
+  const Body a = read_first(r);
+  const HalfSpace b = read_second(r);
+  const Q height = b.height(lowest_of(a, b).front());
+  return height <= 0 || height * height <= a.radius * a.radius * square_of(b.normal) ? yes() : no();
 }
 
 using Rounded = std::array<double, 3>;
@@ -308,6 +335,21 @@ Reference reference_signed_distance(Reader r) {
   };
   moved(point1, a.radius);
   moved(point2, -b.radius);
+  return reference;
+}
+
+/// The foot of the perpendicular from a lowest point, or from a point between lowest ones, is the nearest point.
+template <Body (*read_first)(Reader&), HalfSpace (*read_second)(Reader&)>
+Reference reference_signed_distance(Reader r) {
+  const Body a = read_first(r);
+  const HalfSpace b = read_second(r);
+  const std::vector<V> lowest = lowest_of(a, b);
+  const V from = r.choose.is_free() ? r.choose.between(lowest) : lowest.front();
+  const R n = length(b.normal);
+  Reference reference = yes(R(real(b.height(from)) / n - real(a.radius)));
+  reference.give_unit(scaled(b.normal, -1));
+  for (int k = 0; k < 3; ++k) reference.give(R(real(from[k]) - real(a.radius) * real(b.normal[k]) / n));
+  reference.give(add(from, b.normal, -b.height(from) / square_of(b.normal)));
   return reference;
 }
 

@@ -157,7 +157,8 @@ class Encounter {
     const auto corner = [&](std::size_t k) { return exactly(case_, i + 3 * k); };
     switch (start_.obstacle.shape) {
       case Shape::plane:
-      case Shape::point:  // these four are no obstacles
+      case Shape::point:  // these five are no obstacles
+      case Shape::halfspace:
       case Shape::segment:
       case Shape::line:
       case Shape::ray: return;

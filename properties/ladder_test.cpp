@@ -87,7 +87,8 @@ bool excludes_more(const Enclosure& now, const Enclosure& next) {
 /// share of five times as many decides.
 TEST_P(Oracles, ExcludeMoreOnAHigherRungInFewerThanOneOfAHundredCases) {
   const Query& query = *GetParam().query;
-  const auto first_cases = std::uint64_t(std::max(200, 8 * cases_per_family() / 5 / cost_of(query))),
+  const auto least = std::min(200, 2 * cases_per_family());
+  const auto first_cases = std::uint64_t(std::max(least, 8 * cases_per_family() / 5 / cost_of(query))),
              most_cases = 5 * first_cases;
   std::uint64_t strange = 0, cases = 0;
   while (cases < first_cases || (cases < most_cases && 100 * strange >= first_cases)) {

@@ -448,6 +448,12 @@ INSTANTIATE_TEST_SUITE_P(
                               if (a.yes) a.values[0] *= 1.25;
                               return a;
                             }},
+                    Planted{"distance-of-closest", "closest_point_segment",  // the end of the segment
+                            [](std::span<const double> v) {
+                              std::vector<double> w(v.begin(), v.end());
+                              for (std::size_t k = 0; k < 3; ++k) w[k] = v[3 + k];
+                              return right("closest_point_segment", w);
+                            }},
                     Planted{"turned-corners", "moving_point_triangle",  // an edge that is left out
                             [](std::span<const double> v) {
                               std::vector<double> w(v.begin(), v.end());

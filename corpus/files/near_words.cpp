@@ -81,7 +81,6 @@ constexpr std::array words_of_queries = {
     Synonym{"contact", "penetration"},
     Synonym{"distance", "closest point"},
     Synonym{"nearest", "closest"},
-    Synonym{"halfspace", "plane"},
     Synonym{"raycast", "ray"},
     Synonym{"line", "segment"},
     Synonym{"reflect", "bounce"},

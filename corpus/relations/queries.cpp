@@ -153,22 +153,51 @@ std::optional<FollowUps> sign_of_distance(const Case& c, std::uint64_t) {
   });
 }
 
-/// A depth of overlap is the distance of the same two shapes below zero. Where the depth says that the shapes are
-/// apart, the distance is not below zero.
+/// A depth of overlap is the distance of the same two shapes below zero; of a plane, that of the half-space behind it.
+/// Where the depth says that the shapes are apart, the distance is not below zero.
 std::optional<FollowUps> depth_of_distance(const Case& c, std::uint64_t) {
   const Layout::Part* depth = c.query->layout.at(Role::depth);
   if (c.query->kind != Kind::depth || depth == nullptr || c.operands().size() != 2) return std::nullopt;
-  const Query* const grid =
-      find_query(fmt::format("{}_{}_signed_distance", name_of(c.operands()[0].shape), name_of(c.operands()[1].shape)));
+  const auto solid = [](Shape shape) { return shape == Shape::plane ? Shape::halfspace : shape; };
+  const Query* const grid = find_query(fmt::format("{}_{}_signed_distance", name_of(solid(c.operands()[0].shape)),
+                                                   name_of(solid(c.operands()[1].shape))));
   if (grid == nullptr) return std::nullopt;
   const std::size_t ours = depth->begin, theirs = signed_distance_of(*grid);
-  Case other = recast(c, Link{.kind = Link::Kind::same_decision, .to = grid->id});
+  Case other =
+      recast(c, Link{.kind = Link::Kind::same_decision, .to = grid->id, .renamed = {{{"halfspace", "plane"}}}});
   return ordered({std::move(other)}, [=, scalar = c.scalar](const Answer& own, std::span<const Answer> others) {
     if (!own.gives(ours) || !others[0].gives(theirs)) return Agreement::same;
     const double deep = own.values[ours], distance = others[0].values[theirs];
     if (!std::isfinite(deep) || !std::isfinite(distance)) return Agreement::same;  // beyond the scalar's range
     const bool alike = own.yes ? std::abs(deep + distance) <= slack(scalar, deep, distance) : !(distance < 0);
     return alike ? Agreement::same : Agreement::numbers_differ;
+  });
+}
+
+/// The closest point of a segment is as far from the point as the segment.
+std::optional<FollowUps> distance_of_closest(const Case& c, std::uint64_t) {
+  const Operands& shapes = c.operands();
+  const Operand *segment = shapes.find(Shape::segment), *point = shapes.find(Shape::point);
+  if (c.query->kind != Kind::points || shapes.size() != 2 || segment == nullptr || point == nullptr)
+    return std::nullopt;
+  const std::size_t closest = index_of(c.query->outputs, "point.x");
+  if (closest == c.query->outputs.size()) return std::nullopt;
+  const Query& grid = *find_query("point_segment_signed_distance");
+  const std::size_t theirs = signed_distance_of(grid);
+  const double* at = &c.values[point->begin];
+  const std::array<double, 3> from{at[0], at[1], at[2]};
+  Case other = recast(c, Link{.kind = Link::Kind::same_decision, .to = grid.id});
+  return ordered({std::move(other)}, [=, scalar = c.scalar](const Answer& own, std::span<const Answer> others) {
+    if (!others[0].gives(theirs) || !own.gives(closest)) return Agreement::same;
+    long double square = 0, largest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const long double x = own.values[closest + k], off = x - from[k];
+      square += off * off, largest = std::max(largest, std::abs(x));
+    }
+    const double away = double(std::sqrt(square)), distance = others[0].values[theirs];
+    if (!std::isfinite(away) || !std::isfinite(distance)) return Agreement::same;  // beyond the scalar's range
+    return std::abs(away - distance) <= slack(scalar, double(largest), distance) ? Agreement::same
+                                                                                 : Agreement::numbers_differ;
   });
 }
 

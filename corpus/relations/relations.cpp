@@ -46,6 +46,7 @@ constexpr Relation all_relations[] = {
     {"sign-of-distance", "shapes overlap where their distance is below 0, and are apart where it is above", false,
      metamorphic::sign_of_distance},
     {"depth-of-distance", "the depth of an overlap is the distance below 0", false, metamorphic::depth_of_distance},
+    {"distance-of-closest", "the closest point is as far away as the shape", false, metamorphic::distance_of_closest},
     {"hits-pass", "what hits at some time passes within unlimited time", false, metamorphic::hits_pass},
     {"other-side", "a point that hits one side of a shape does not hit the other", false, metamorphic::other_side},
 };

@@ -35,7 +35,7 @@ std::optional<QueryPlan> query_plan(const Query& query) {
     plan.operands.back().shape = Shape::point;
   }
   if (plan.operands.size() != 2) return std::nullopt;
-  const bool plane_first = plan.operands[0].shape == Shape::plane;
+  const bool plane_first = has_one_plane(plan.operands[0].shape);
   if (plane_first) std::swap(plan.operands[0], plan.operands[1]);
   return plan;
 }

@@ -114,7 +114,8 @@ class Filling {
     switch (s.type) {
       case Shape::box: return box(begin, s);
       case Shape::aabox: vector(begin, plus(s.center, s.half, -1)); return vector(begin + 3, plus(s.center, s.half));
-      case Shape::plane: vector(begin, s.axes[0]); return number(begin + 3, -dot(s.axes[0], s.center));
+      case Shape::plane:
+      case Shape::halfspace: vector(begin, s.axes[0]); return number(begin + 3, -dot(s.axes[0], s.center));
       default: break;
     }
     for (std::size_t i = 0; i < s.corner_count; ++i) vector(begin + 3 * i, plus(s.center, s.corners[i]));

@@ -34,8 +34,9 @@ struct Spread {
 
 /// The shapes that a scene may have. A size is a radius (sphere, capsule), a half extent (box, aabox) or a side
 /// (capsule's axis, segment, triangle, rectangle); a point and a plane have none.
-inline constexpr std::array scene_shapes = {Shape::point, Shape::sphere,   Shape::capsule,   Shape::segment, Shape::box,
-                                            Shape::aabox, Shape::triangle, Shape::rectangle, Shape::plane};
+inline constexpr std::array scene_shapes = {Shape::point, Shape::sphere,   Shape::capsule,  Shape::segment,
+                                            Shape::box,   Shape::aabox,    Shape::triangle, Shape::rectangle,
+                                            Shape::plane, Shape::halfspace};
 
 /// Shapes of a scene that are alike.
 struct Shapes {

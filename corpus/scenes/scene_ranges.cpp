@@ -27,7 +27,8 @@ double largest_reach(const Shapes& shapes) {
   const double most = shapes.size.most.value;
   switch (shapes.type) {
     case Shape::point:
-    case Shape::plane: return 0;
+    case Shape::plane:
+    case Shape::halfspace: return 0;
     case Shape::capsule: return 2 * most;
     case Shape::box:
     case Shape::aabox: return std::sqrt(3.0) * most;
@@ -157,11 +158,11 @@ bool SceneRanges::contain_drawn(const Case& c) const {
     if (role == Role::flag && c.values[k] != drawn_flag(c.fields()[k])) return false;
   }
   // The plane's point nearest to the first shape stands for its center.
-  const double between = plan_->operands[1].shape == Shape::plane
+  const double between = has_one_plane(plan_->operands[1].shape)
                              ? std::abs(height_above(c, plan_->operands[1], measured[0].center))
                              : length_of(plus(measured[0].center, measured[1].center, -1));
   if (between > apart_ + slack) return false;
-  if (plan_->operands[1].shape != Shape::plane) return is_in(length_of(measured[1].center), place_, slack);
+  if (!has_one_plane(plan_->operands[1].shape)) return is_in(length_of(measured[1].center), place_, slack);
   return std::abs(c.values[plan_->operands[1].begin + 3]) <= place_.most + slack &&
          length_of(measured[0].center) <= place_.most + apart_ + slack;
 }
@@ -200,7 +201,7 @@ void SceneRanges::fit_drawn(Case& c) const {
   if (plan_->velocity) fit_length(c, *plan_->velocity, {speed.least.value, speed.most.value});
   const Operand &first = plan_->operands[0], &second = plan_->operands[1];
   Vector center = measured_shape(c, first).center;
-  if (second.shape == Shape::plane) return fit_plane(c);
+  if (has_one_plane(second.shape)) return fit_plane(c);
   Vector other = measured_shape(c, second).center;
   const double length = length_of(other), wanted = clamped(length, place_);
   if (wanted != length) {

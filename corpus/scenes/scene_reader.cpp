@@ -144,7 +144,7 @@ Shapes SceneReader::shapes(const json& j, const std::string& path, const std::ve
   }
   s.type = *found;
   s.count = sourced(j, path, "count", {1});
-  const bool has_size = s.type != Shape::point && s.type != Shape::plane;
+  const bool has_size = s.type != Shape::point && !has_one_plane(s.type);
   if (!has_size && j.contains("size")) fail(path + ".size", j["size"], fmt::format("absent for a {}", type));
   if (has_size) s.size = spread(j, path, "size", not_negative);
   if (j.contains("speed")) s.speed = spread(j, path, "speed", not_negative);

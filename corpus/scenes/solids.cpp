@@ -159,7 +159,7 @@ double draw_from(Random& random, const Spread& spread) {
 }
 
 double Solid::reach() const {
-  if (type == Shape::plane) return 0;
+  if (has_one_plane(type)) return 0;
   if (is_box()) return length_of(half);
   double most = 0;
   for (std::size_t i = 0; i < corner_count; ++i) most = std::max(most, length_of(corners[i]));
@@ -186,14 +186,14 @@ Solid draw_solid(Random& random, const Shapes& shapes) {
     s.axes = axes_of_rotation(s.rotation);
     return s;
   }
-  if (s.type == Shape::plane) s.axes[0] = random.one_in(4) ? along_z : draw_direction(random);
+  if (has_one_plane(s.type)) s.axes[0] = random.one_in(4) ? along_z : draw_direction(random);
   if (s.type == Shape::sphere || s.type == Shape::capsule) s.radius = draw_from(random, shapes.size);
   draw_corners(random, s, shapes.size);
   return s;
 }
 
 SurfacePoint draw_surface_point(Random& random, const Solid& solid) {
-  if (solid.type == Shape::plane) return {{}, solid.axes[0]};
+  if (has_one_plane(solid.type)) return {{}, solid.axes[0]};
   return solid.is_box() ? surface_of_box(random, solid) : surface_of_hull(random, solid);
 }
 

@@ -66,6 +66,10 @@ struct BulletShapes {
     return btStaticPlaneShape(vector(p.normal), btScalar(-p.offset / length(p.normal)));
   }
   static btTransform pose(const collide::Plane<double>&) { return btTransform::getIdentity(); }
+  static btStaticPlaneShape shape(const collide::HalfSpace<double>& h) {
+    return shape(collide::Plane<double>{h.normal, h.offset});
+  }
+  static btTransform pose(const collide::HalfSpace<double>&) { return btTransform::getIdentity(); }
   static btTriangleShape shape(const collide::Triangle<double>& t) {
     return btTriangleShape(vector(t.v0), vector(t.v1), vector(t.v2));
   }
@@ -267,7 +271,17 @@ struct BulletInDoubles : private BulletShapes {
   }
 
   template <AsksSignedDistance Q>
-    requires BulletKnows<First<Q>> && BulletKnows<Second<Q>>
+    requires(BulletKnows<First<Q>> && is_halfspace<Second<Q>>)
+  static Reply<typename Q::Answer> answer(const Q& q) {
+    const auto& [a, b] = shapes_of(q);
+    const BulletAlgorithm algorithm(a, b);
+    const BulletContact deepest = algorithm.deepest();
+    if (!deepest.any) return CannotAnswer{"Bullet tells no distance from a plane but of shapes that are near"};
+    return typename Q::Answer{deepest.distance, doubles(deepest.normal) * -1.0, doubles(deepest.on_first()),
+                              doubles(deepest.on_second)};
+  }
+  template <AsksSignedDistance Q>
+    requires(BulletKnows<First<Q>> && BulletKnows<Second<Q>> && !is_halfspace<Second<Q>>)
   static Reply<typename Q::Answer> answer(const Q& q) {
     const auto& [a, b] = shapes_of(q);
     const BulletBody first(a);

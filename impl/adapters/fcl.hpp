@@ -50,6 +50,8 @@ struct FclShapes {
   /// The half-space behind the plane; FCL normalizes the normal.
   static fcl::Halfspaced shape(const collide::Plane<double>& p) { return {vector(p.normal), -p.offset}; }
   static fcl::Transform3d pose(const collide::Plane<double>&) { return fcl::Transform3d::Identity(); }
+  static fcl::Halfspaced shape(const collide::HalfSpace<double>& h) { return {vector(h.normal), -h.offset}; }
+  static fcl::Transform3d pose(const collide::HalfSpace<double>&) { return fcl::Transform3d::Identity(); }
 };
 
 /// A shape with its pose.
@@ -84,9 +86,14 @@ struct FclPair {
   FclBody<B> b;
 };
 
-/// FCL's test of a body against a triangle that is part of no mesh.
+/// FCL's test of a body against a triangle that is part of no mesh. Only the form with a pose of the triangle knows
+/// half-spaces: the other one, which meshes of axis-aligned boxes use, ends the program.
 template <class Solver, class S>
 bool meets_triangle(const Solver& solver, const FclBody<S>& body, const fcl::Vector3d (&corners)[3]) {
+  if constexpr (std::is_same_v<decltype(body.geometry), fcl::Halfspaced>) {
+    return solver.shapeTriangleIntersect(body.geometry, body.pose, corners[0], corners[1], corners[2],
+                                         fcl::Transform3d::Identity(), nullptr, nullptr, nullptr);
+  }
   return solver.shapeTriangleIntersect(body.geometry, body.pose, corners[0], corners[1], corners[2], nullptr, nullptr,
                                        nullptr);
 }
@@ -283,8 +290,7 @@ struct FclDistance : FclShapes {
   }
   template <class Q>
   static std::string why_not() {
-    if constexpr (
-        requires(const Q& q) { q.plane; } && !requires(const Q& q) { q.velocity; }) {
+    if constexpr ((is_plane<Second<Q>> || is_halfspace<Second<Q>>)&&!OfMotion<Q>) {
       return "FCL 0.7 has no distance to a plane or half-space, and crashes when it is asked for one (its issue 623)";
     }
     if constexpr (AsksDepth<Q> || (AsksSignedDistance<Q> && FclKnowsBoth<Q>)) {
@@ -307,7 +313,7 @@ struct FclDistance : FclShapes {
   }
 
   template <AsksSignedDistance Q>
-    requires(FclKnowsBoth<Q> && solver == fcl::GST_INDEP)
+    requires(FclKnowsBoth<Q> && !is_halfspace<Second<Q>> && solver == fcl::GST_INDEP)
   static auto answer(const Q& q) {
     const auto& [a, b] = shapes_of(q);
     fcl::DistanceRequestd request(false, true);

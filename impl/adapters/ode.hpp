@@ -63,6 +63,9 @@ struct OdeShapes {
     start();
     return made(dCreatePlane(nullptr, p.normal.x, p.normal.y, p.normal.z, -p.offset));
   }
+  static Geometry geometry(const collide::HalfSpace<double>& h) {
+    return geometry(collide::Plane<double>{h.normal, h.offset});
+  }
 };
 
 template <class S>
@@ -136,6 +139,9 @@ struct Ode : private OdeShapes {
   }
   static Partly<collide::SignedDistance<double>> answer(const in::point_capsule_signed_distance<double>& q) {
     return out_of(q, dGeomCapsulePointDepth);
+  }
+  static Partly<collide::SignedDistance<double>> answer(const in::point_halfspace_signed_distance<double>& q) {
+    return out_of(q, dGeomPlanePointDepth);
   }
   static auto answer(const in::segment_segment_signed_distance<double>& q) {
     const auto vector = [](const Vec3d& v) { return std::array<dReal, 4>{v.x, v.y, v.z}; };

@@ -28,6 +28,8 @@ inline constexpr bool is_vector = detail::is_instance<collide::Vec3, S>;
 template <class S>
 inline constexpr bool is_plane = detail::is_instance<collide::Plane, S>;
 template <class S>
+inline constexpr bool is_halfspace = detail::is_instance<collide::HalfSpace, S>;
+template <class S>
 inline constexpr bool is_sphere = detail::is_instance<collide::Sphere, S>;
 template <class S>
 inline constexpr bool is_box = detail::is_instance<collide::Box, S>;

@@ -23,6 +23,9 @@ enum class Shape : std::uint8_t {
 #undef NEARMISS_SHAPE
 };
 
+/// A plane, or a half-space: a normal and an offset are its only members.
+constexpr bool has_one_plane(Shape shape) { return shape == Shape::plane || shape == Shape::halfspace; }
+
 /// A vector, a number or a quaternion of a shape.
 struct ShapeMember {
   std::string name;          ///< "center", "vertices.count", "vertices.0"; empty: the shape is this member

@@ -1,7 +1,7 @@
 /// Truth of the grid's overlaps: two rounded polytopes are apart if a direction separates their cores by more than the
 /// sum of their radii. If there is one, then the direction of the shortest way between the cores is one, and that joins
 /// two features: it is the normal of a face, the cross product of two edges, perpendicular to an edge, or between two
-/// vertices. The bodies meet if none of these separates.
+/// vertices. The bodies meet if none of these separates. From a half-space only its normal separates.
 #include "impl/catalogue/queries/grid.hpp"
 #include "oracles/algorithms/rounded_polytopes.hpp"
 
@@ -46,6 +46,22 @@ Decisions by_distance(const Q<Interval>& q, std::span<const double> inputs) {
   const Interval reach = of_bound(movement(core_of(q.a), a)) + of_bound(movement(core_of(q.b), b));
   const Interval radii = a.radius + b.radius;
   return {!((of_bound(s->high) - radii + reach).sup() <= 0), !((of_bound(s->low) - radii - reach).inf() > 0)};
+}
+
+template <template <class> class Q, class N>
+concept WithHalfSpace = std::same_as<decltype(Q<N>::b), collide::HalfSpace<N>>;
+
+/// Whether the lowest vertex of the core is at most the radius above the half-space's plane.
+template <class N, template <class> class Q, class Out>
+  requires WithHalfSpace<Q, N>
+void overlap(const Q<N>& q, Out& out) {
+  const Core<N> a = core_of(q.a);
+  const Vector<N> normal = vector(q.b.normal);
+  const N height = projection(normal, a).low + a.unit * q.b.offset;
+  if (!may_be_positive(height)) return out.yes({true});
+  const N beyond = square(assume_at_least_zero(height)) - square(N(a.radius * a.unit)) * norm2(normal);
+  if (may_be_positive(beyond)) out.no();
+  if (may_be_at_most_zero(height) || may_be_at_most_zero(beyond)) out.yes({true});
 }
 
 template <class N, template <class> class Q, class Out>

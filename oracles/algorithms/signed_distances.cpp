@@ -1,10 +1,10 @@
-/// Truth of the grid's signed distances. The signed distance of two cores is the greatest gap between them over all
-/// directions of length 1, and each right normal has that gap. Where the cores are apart, or meet in a volume, it is
-/// one of the directions of any_direction(). Where they only touch or cross without a volume, each direction that
-/// separates them weakly is right: those of a cone, or both normals of a face that is common to them. With a normal n
-/// the nearest points c1 and c2 of the cores are any points of theirs with c2 - c1 = gap n, so c1 lies in the common
-/// part of a feature of the first and of the moved one of the second: a polygon, or less. The radii move the points
-/// along n.
+/// Truth of the grid's signed distances. That from a half-space is measured against its normal. The signed distance of
+/// two cores is the greatest gap between them over all directions of length 1, and each right normal has that gap.
+/// Where the cores are apart, or meet in a volume, it is one of the directions of any_direction(). Where they only
+/// touch or cross without a volume, each direction that separates them weakly is right: those of a cone, or both
+/// normals of a face that is common to them. With a normal n the nearest points c1 and c2 of the cores are any points
+/// of theirs with c2 - c1 = gap n, so c1 lies in the common part of a feature of the first and of the moved one of the
+/// second: a polygon, or less. The radii move the points along n.
 #include "impl/catalogue/queries/grid.hpp"
 #include "oracles/algorithms/near_points.hpp"
 #include "oracles/algorithms/rounded_polytopes.hpp"
@@ -154,13 +154,13 @@ PointOffset offset_place(const Out& out, std::size_t number, const ExactVector& 
 }
 
 /// The right answers with one normal, the direction, whose gap is `gap`, both times the direction's length.
-template <class Out>
-void report_along(const ExactCore& a, const ExactCore& b, const ExactVector& direction, const Exact& gap, Out& out) {
+/// corners_of(way) are those of the polygon of first points.
+template <class Out, class CornersOf>
+void report_along(const ExactCore& a, const ExactCore& b, const ExactVector& direction, const Exact& gap, Out& out,
+                  CornersOf&& corners_of) {
   const Exact length2 = norm2(direction), inverse = root(Exact(Exact(1) / length2));
   const ExactVector normal = times(direction, inverse), way = times(direction, Exact(gap / length2));
-  std::vector<ExactVector> of_b = furthest(b, negated(direction));
-  for (ExactVector& v : of_b) v = minus(v, way);
-  const std::vector<ExactVector> corners = common_part(furthest(a, direction), of_b);
+  const std::vector<ExactVector> corners = corners_of(way);
   const auto answer = [&](const ExactVector& c) {
     return signed_distance_answer(a, b, Exact(gap * inverse), normal, c, plus(c, way));
   };
@@ -176,6 +176,16 @@ void report_along(const ExactCore& a, const ExactCore& b, const ExactVector& dir
   const RationalVector& x = both.member ? *both.member : polygon.front();
   out.yes(answer({Exact(x[0]), Exact(x[1]), Exact(x[2])}),
           SetDistance{{{point1_at, first.ulps}, {point2_at, second.ulps}}, both.ulps});
+}
+
+/// The same for two cores.
+template <class Out>
+void report_along(const ExactCore& a, const ExactCore& b, const ExactVector& direction, const Exact& gap, Out& out) {
+  report_along(a, b, direction, gap, out, [&](const ExactVector& way) {
+    std::vector<ExactVector> of_b = furthest(b, negated(direction));
+    for (ExactVector& v : of_b) v = minus(v, way);
+    return common_part(furthest(a, direction), of_b);
+  });
 }
 
 /// The cores meet in these corners, but no volume is common to them: each normal of a cone is right, with each common
@@ -235,9 +245,26 @@ void report_touch(const ExactCore& a, const ExactCore& b, const std::vector<Exac
                                     all.ulps});
 }
 
+ExactCore in_units(const ExactCore& core) { return times(Exact(Exact(1) / core.unit), core); }
+
+template <template <class> class Q, class N>
+concept WithHalfSpace = std::same_as<decltype(Q<N>::b), collide::HalfSpace<N>>;
+
+/// From a half-space: against its normal, from the vertices that are furthest that way.
+template <template <class> class Q, class Out>
+  requires WithHalfSpace<Q, Exact>
+void signed_distance_of(const Q<Exact>& q, Out& out) {
+  const ExactCore a = in_units(core_of(q.a));
+  const ExactVector outward = vector(q.b.normal), direction = negated(outward);
+  if (surely_zero(norm2(outward))) return out.everything();
+  const std::vector<ExactVector> deepest = furthest(a, direction);
+  ExactCore without_radius;
+  report_along(a, without_radius, direction, Exact(dot(outward, deepest.front()) + q.b.offset), out,
+               [&](const ExactVector&) { return deepest; });
+}
+
 template <template <class> class Q, class Out>
 void signed_distance_of(const Q<Exact>& q, Out& out) {
-  const auto in_units = [](const ExactCore& core) { return times(Exact(Exact(1) / core.unit), core); };
   const ExactCore a = in_units(core_of(q.a)), b = in_units(core_of(q.b));
   struct Separating {
     ExactVector direction;
@@ -543,6 +570,39 @@ IntervalVector normals_of(const IntervalCore& a, const IntervalCore& b, const In
   return normals_around(minus(point_at(spans_of(b), of_b), point_at(spans_of(a), of_a)), distance);
 }
 
+/// Whether a vertex of the core may be furthest along the normal.
+struct MayBeFurthest {
+  const IntervalCore& core;
+  const IntervalVector& normal;
+
+  bool operator()(const IntervalVector& v) const {
+    return std::none_of(core.vertices.begin(), core.vertices.end(),
+                        [&](const IntervalVector& other) { return dot(normal, minus(other, v)).inf() > 0; });
+  }
+};
+
+/// From a half-space. Where several vertices may be the deepest one, each answer lies between them, at its heights.
+template <template <class> class Q, class Out>
+  requires WithHalfSpace<Q, Interval>
+void signed_distance_of(const Q<Interval>& q, Out& out) {
+  const IntervalCore a = core_of(q.a);
+  const IntervalVector outward = vector(q.b.normal), normal = unit_of(negated(outward));
+  const Interval norm = root(norm2(outward));
+  if (!(norm.inf() > 0)) return out.everything();
+  const Interval level = projection(outward, a).low, s = (level + q.b.offset) / norm;
+  const MayBeFurthest may_be{a, normal};
+  const IntervalVector c1 = hull_of(a, may_be), c2 = plus(c1, times(normal, s));
+  IntervalCore without_radius;
+  const auto answer = signed_distance_answer(a, without_radius, s, normal, c1, c2);
+  if (std::count_if(a.vertices.begin(), a.vertices.end(), may_be) <= 1) return out.yes(answer);
+  const GivenVector p1 = out.given_vector(point1_at).front(), p2 = out.given_vector(point2_at).front();
+  const IntervalVector origin{Interval(0), Interval(0), Interval(0)};
+  const double of1 = least_ulps(p1, {outward, origin, level - a.radius * norm});
+  const double of2 = least_ulps(p2, {outward, origin, -q.b.offset});
+  out.yes(answer,
+          SetDistance{{{point1_at, {of1, HUGE_VAL}}, {point2_at, {of2, HUGE_VAL}}}, {std::max(of1, of2), HUGE_VAL}});
+}
+
 template <template <class> class Q, class Out>
 void signed_distance_of(const Q<Interval>& q, Out& out) {
   IntervalCore a = core_of(q.a), b = core_of(q.b);
@@ -584,15 +644,8 @@ void signed_distance_of(const Q<Interval>& q, Out& out) {
       if (!narrow(s, distance)) continue;
       IntervalVector n = unit_of(side == 0 ? d : negated(d));
       if (!narrow(n[0], any_normal[0]) || !narrow(n[1], any_normal[1]) || !narrow(n[2], any_normal[2])) continue;
-      const auto is_furthest = [&](const IntervalCore& core, double sign) {
-        return [&core, &n, sign](const IntervalVector& v) {
-          return std::none_of(core.vertices.begin(), core.vertices.end(), [&](const IntervalVector& other) {
-            return (Interval(sign) * dot(n, minus(other, v))).inf() > 0;
-          });
-        };
-      };
       const IntervalVector way = times(n, s);
-      const IntervalVector of_a = hull_of(a, is_furthest(a, 1)), of_b = hull_of(b, is_furthest(b, -1));
+      const IntervalVector of_a = hull_of(a, MayBeFurthest{a, n}), of_b = hull_of(b, MayBeFurthest{b, negated(n)});
       IntervalVector c1 = within_both(of_a, minus(of_b, way)), c2 = within_both(of_b, plus(of_a, way));
       if (edges.of_a != nullptr && a.edges.size() == 1 && b.edges.size() == 1) {
         const IntervalVector &from_a = a.vertices[0], &from_b = b.vertices[0];
@@ -622,6 +675,10 @@ bool may_be_on_surface_of(const collide::Triangle<N>& triangle, const GivenPlace
 template <class N>
 bool may_be_on_surface_of(const collide::Box<N>& box, const GivenPlace<N>& place) {
   return may_be_on_box(place, box);
+}
+template <class N>
+bool may_be_on_surface_of(const collide::HalfSpace<N>& halfspace, const GivenPlace<N>& place) {
+  return may_be_on_plane(place, halfspace);
 }
 
 }  // namespace

@@ -103,6 +103,22 @@ class Inputs {
     return {center, half, axes_of(q, more_than(std::sqrt(slack2)))};
   }
   Body box() { return turned().body(); }
+  struct HalfSpace {
+    Vector normal;
+    Number offset;
+    bool is_known() const { return bodies::length(normal.at) > 4 * normal.slack; }
+    /// The least distance of a point of the body's core from the plane, negative behind it.
+    Number least_height(const Body& body) const {
+      const Vector out = unit(normal);
+      const Real furthest = body.size() + bodies::length(body.middle()) + body.slack;
+      const Number core{-body.reach(scaled(out.at, -1)), body.slack + out.slack * furthest};
+      return core + offset / length(normal);
+    }
+  };
+  HalfSpace halfspace() {
+    const Vector normal = vector();
+    return {normal, number()};
+  }
   Motion moving_point() {
     const Vector from = vector();
     return {from, vector(), {0, 0}};
@@ -592,6 +608,16 @@ void overlap(Inputs in, Liar& out) {
   overlapping(a, (in.*second)(), out);
 }
 
+template <Body (Inputs::*first)(), Inputs::HalfSpace (Inputs::*second)()>
+void overlap(Inputs in, Liar& out) {
+  const Body a = (in.*first)();
+  const Inputs::HalfSpace b = (in.*second)();
+  if (!b.is_known()) return;
+  const Number above = b.least_height(a) - Number{a.radius, 0};
+  if (surely_positive(above)) out.surely(false);
+  if (surely_negative(above)) out.surely(true);
+}
+
 constexpr std::size_t depth_leaf = 0, normal_leaf = 1, contact_leaf = 4;
 
 /// True if the bodies certainly overlap.
@@ -634,6 +660,23 @@ void signed_distance(Inputs in, Liar& out) {
   const Real turn = std::acos(cosine), angle = std::acos(std::clamp<Real>(way[k] / length, -1, 1));
   out.within(Topic::number, normal_leaf + k, std::cos(std::min<Real>(angle + turn, std::numbers::pi_v<Real>)),
              std::cos(std::max<Real>(angle - turn, 0)), 1);
+}
+/// The distance, the normal, and how far along each coordinate the points may be: the first one is as far from the core
+/// as the radius, the second one as the height.
+template <Body (Inputs::*first)(), Inputs::HalfSpace (Inputs::*second)()>
+void signed_distance(Inputs in, Liar& out) {
+  const Body a = (in.*first)();
+  const Inputs::HalfSpace b = (in.*second)();
+  if (!b.is_known()) return;
+  constexpr std::size_t distance_leaf = 0, point_leaf = 4;
+  const Number height = b.least_height(a);
+  const Real size = a.size() + bodies::length(a.middle());
+  out.about(Topic::number, distance_leaf, height - Number{a.radius, 0}, 0);
+  out.about(Topic::number, normal_leaf, unit(b.normal * Number{-1, 0}));
+  const std::size_t k = out.below(3), which = out.below(2);
+  const Real away = (which == 0 ? a.radius : std::abs(height.at) + height.slack) + a.slack;
+  out.within(Topic::place, point_leaf + 3 * which + k, -a.reach(scaled(direction(k), -1)) - away,
+             a.reach(direction(k)) + away, size + away);
 }
 void sphere_sphere_penetration(Inputs in, Liar& out) {
   const Vector center1 = in.vector();

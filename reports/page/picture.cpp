@@ -199,7 +199,7 @@ class CasePicture {
   PictureReal distance_of_planes() const {
     PictureReal least = 0;
     for (const PictureShape& s : inputs_.shapes) {
-      if (s.shape == Shape::plane && (least == 0 || length(nearest_point(s, {})) < least))
+      if (s.has_one_plane() && (least == 0 || length(nearest_point(s, {})) < least))
         least = length(nearest_point(s, {}));
     }
     return least;

@@ -193,7 +193,7 @@ class Drawing {
     add(given);
     if (differ) add(inputs().velocity);
     for (const PictureShape& s : inputs().shapes) {
-      if (s.shape == Shape::plane || s.shape == Shape::ray || s.shape == Shape::line) add(s.axis);
+      if (s.has_one_plane() || s.shape == Shape::ray || s.shape == Shape::line) add(s.axis);
     }
     const PictureShape *first = inputs().first_body(), *other = inputs().other_than(first);
     if (first != nullptr && other != nullptr && !first->corners.empty() && !other->corners.empty())
@@ -239,7 +239,7 @@ class Drawing {
     for (const PictureShape& s : inputs().shapes) {
       include(e, sight, s);
       if (s.shape == Shape::ray || s.shape == Shape::line) e.include(sight.flat(s.corners[0]));
-      if (s.shape == Shape::plane) e.include(sight.flat(nearest_point(s, {})));
+      if (s.has_one_plane()) e.include(sight.flat(nearest_point(s, {})));
     }
     for (const Side& s : sides_) {
       Extent with = e;
@@ -278,7 +278,7 @@ class Drawing {
 
   template <class At>
   FlatOutline outline(Ink ink, const PictureShape& s, const Sight& sight, const At& at, double pixels) const {
-    if (s.shape == Shape::plane) {
+    if (s.has_one_plane()) {
       const FlatPoint n = sight.flat(s.axis), zero = at({});
       const double d = rounded(s.offset) * pixels - (n.right * zero.right + n.up * zero.up);
       return {ink, clipped(around_the_view(), n, d), 0};
@@ -505,7 +505,7 @@ bool is_finite(const Case& question) {
 }  // namespace
 
 std::vector<PictureVector> rounded_points(const PictureShape& s) {
-  if (s.shape == Shape::plane || s.shape == Shape::ray || s.shape == Shape::line) return {};
+  if (s.has_one_plane() || s.shape == Shape::ray || s.shape == Shape::line) return {};
   if (s.axes.empty()) return s.corners;
   std::vector<PictureVector> corners;
   for (int i = 0; i < 8; ++i) {

@@ -200,7 +200,8 @@ PictureVector nearest_point(const PictureShape& s, const PictureVector& p) {
     case Shape::segment: return nearest_on_segment(p, s.corners[0], s.corners[1]);
     case Shape::ray: return nearest_on_carrier(p, s.corners[0], s.axis, 0, std::nullopt);
     case Shape::line: return nearest_on_carrier(p, s.corners[0], s.axis, std::nullopt, std::nullopt);
-    case Shape::plane: return p - s.axis * ((dot(s.axis, p) + s.offset) / dot(s.axis, s.axis));
+    case Shape::plane:
+    case Shape::halfspace: return p - s.axis * ((dot(s.axis, p) + s.offset) / dot(s.axis, s.axis));
     case Shape::triangle: return nearest_on_triangle(p, s.corners[0], s.corners[1], s.corners[2]);
     case Shape::rectangle:
       return nearer(p, nearest_on_triangle(p, s.corners[0], s.corners[1], s.corners[2]),
@@ -267,7 +268,7 @@ PictureVector PictureInputs::where_shapes_meet() const {
 
 void move_by(PictureShape& s, const PictureVector& by) {
   for (PictureVector& c : s.corners) c = c + by;
-  if (s.shape == Shape::plane) s.offset -= dot(s.axis, by);
+  if (s.has_one_plane()) s.offset -= dot(s.axis, by);
 }
 
 PictureReal reach(const PictureShape& s) {
@@ -298,7 +299,8 @@ Json shape_to_json(const PictureShape& shape, const PictureReal& by) {
     case Shape::line:
       j["sides"] = Json::array({carrier_to_json(s.corners[0], s.axis, std::nullopt, std::nullopt)});
       break;
-    case Shape::plane: j["plane"] = face_to_json(unit(s.axis), -s.offset / length(s.axis) / by); break;
+    case Shape::plane:
+    case Shape::halfspace: j["plane"] = face_to_json(unit(s.axis), -s.offset / length(s.axis) / by); break;
     case Shape::triangle:
     case Shape::rectangle: add_pieces(j, s.corners); break;
     case Shape::capsule:

@@ -45,14 +45,15 @@ struct PictureShape {
   std::optional<Shape> shape;  ///< empty: a direction
   std::vector<PictureVector>
       corners{};           ///< points; of a ray or line the first is one and `axis` the direction; of a box its center
-  PictureVector axis{};    ///< of a ray, line, plane or direction; of any length
-  PictureReal offset = 0;  ///< of a plane: axis . x + offset = 0
+  PictureVector axis{};    ///< of a ray, line, plane, half-space or direction; of any length
+  PictureReal offset = 0;  ///< of a plane or half-space: axis . x + offset = 0
   PictureReal radius = 0;
   std::vector<PictureVector> axes{};  ///< of a box: unit vectors
   std::vector<PictureReal> half{};    ///< of a box: half the length along each
   bool moves = false;
 
   bool is_body() const { return shape.has_value(); }
+  bool has_one_plane() const { return shape && nearmiss::has_one_plane(*shape); }
 };
 
 /// The shapes and the motion of a case.

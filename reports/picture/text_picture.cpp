@@ -102,7 +102,7 @@ View view_of(const Things& t) {
   if (t.shapes.size() == 2 && !t.shapes[0].corners.empty() && !t.shapes[1].corners.empty())
     add(t.shapes[1].corners[0] - t.shapes[0].corners[0]);
   for (const PictureShape& s : t.shapes) {
-    if (s.shape == Shape::plane) add(s.axis);
+    if (s.has_one_plane()) add(s.axis);
   }
   const auto along = std::min_element(score.rbegin(), score.rend()) - score.rbegin();
   switch (2 - along) {
@@ -224,7 +224,7 @@ std::string text_picture(const Report& r) {
   canvas.fill([&](const Flat& p, char) {
     char c = ' ';
     for (std::size_t i = 0; i < t.shapes.size(); ++i) {
-      const bool is_plane = t.shapes[i].shape == Shape::plane;
+      const bool is_plane = t.shapes[i].has_one_plane();
       if (is_plane ? is_behind(t.shapes[i], view, p, middle) : outlines[i].covers(p)) c = c == ' ' ? letter_of(i) : '#';
     }
     return c;

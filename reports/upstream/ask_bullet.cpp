@@ -180,6 +180,18 @@ if (nearest.m_hasResult) {
 }
 )";
 
+constexpr std::string_view distance_to_plane = R"(const Deepest deepest = deepest_contact($a, $a_pose, $b, $b_pose);
+if (deepest.any) {
+  got_distance = deepest.distance;
+  const btVector3 on_first = deepest.on_second + deepest.normal * deepest.distance;
+  for (int k = 0; k < 3; ++k) {
+    got_normal[k] = -deepest.normal[k];  // from the first to the second
+    got_point1[k] = on_first[k];
+    got_point2[k] = deepest.on_second[k];
+  }
+}
+)";
+
 Asking point_motion(const CaseShapes& shapes, Scalar scalar) {
   const NamedShape b = target_of(shapes);
   const Words cast = cast_of(moving_of(shapes), b.shape, scalar);
@@ -198,6 +210,11 @@ Asking asking_of(const Case& question) {
   const CaseShapes shapes(question);
   if (shapes.has("point.x")) return point_motion(shapes, question.scalar);
   const auto [a, b] = sides_of(shapes);
+  if (asks_signed_distance(*question.query) && is_a<HalfSpace>(b)) {
+    return {.helpers = std::string(contact_helpers),
+            .statements = declared(a) + declared(b) + call(distance_to_plane, a, b),
+            .members = member_names(*question.query)};
+  }
   if (asks_signed_distance(*question.query)) {
     return {.statements = declared(a) + declared(b) + call(distance, a, b), .members = member_names(*question.query)};
   }

@@ -45,6 +45,9 @@ struct CollideShape {
     return made("Capsule", of(c.p0) + ", " + of(c.p1) + ", " + of(c.radius));
   }
   std::string operator()(const Plane<double>& p) const { return made("Plane", of(p.normal) + ", " + of(p.offset)); }
+  std::string operator()(const HalfSpace<double>& h) const {
+    return made("HalfSpace", of(h.normal) + ", " + of(h.offset));
+  }
   std::string operator()(const Triangle<double>& t) const {
     return made("Triangle", of(t.v0) + ", " + of(t.v1) + ", " + of(t.v2));
   }

@@ -82,6 +82,9 @@ constexpr std::string_view triangle =
     "got_yes = fcl::detail::$function<double>().shapeTriangleIntersect($a, $a_pose, $b[0], $b[1], $b[2], nullptr, "
     "nullptr, "
     "nullptr);\n";
+constexpr std::string_view triangle_and_plane =
+    "got_yes = fcl::detail::$function<double>().shapeTriangleIntersect($a, $a_pose, $b[0], $b[1], $b[2],\n"
+    "    fcl::Transform3d::Identity(), nullptr, nullptr, nullptr);\n";
 constexpr std::string_view distance_of_triangles = R"(fcl::Vector3d on_first, on_second;
 got_distance = fcl::detail::TriangleDistanced::triDistance($a, $b, on_first, on_second);
 )";
@@ -142,7 +145,7 @@ Asking ask_fcl(const Case& question, const Subject& subject) {
                  {"turned_contact", is_a<Plane>(target_of(shapes)) ? "-c" : "c"}};
   const auto [a, b] = sides_of(shapes);
   asking.statements = declared(a) + declared(b);
-  if (!is_a<Triangle>(a)) asking.helpers = at_helper;
+  if (!is_a<Triangle>(a) || is_a<Box>(b)) asking.helpers = at_helper;
   if (shapes.has("velocity.x") && !shapes.has("limit")) {
     asking.statements += motion(moving_of(shapes), a, b, solver, subject.name != "fcl-conservative-advancement");
     asking.members = {"time"};
@@ -156,6 +159,8 @@ Asking ask_fcl(const Case& question, const Subject& subject) {
     asking.statements += is_depth ? depth_of_distance : distance_itself;
     if (is_a<Box>(a) && is_a<Box>(b)) asking.statements += distance_of_boxes;
     asking.members = {is_depth ? "depth" : "distance"};
+  } else if (is_a<Triangle>(a)) {
+    asking.statements += call(is_a<HalfSpace>(b) ? triangle_and_plane : triangle, b, a, by);
   } else if (is_a<Triangle>(b)) {
     asking.statements += call(triangle, a, b, by);
   } else if (question.query->kind == Kind::depth) {

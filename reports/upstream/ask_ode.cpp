@@ -131,8 +131,10 @@ Asking signed_distance(const CaseShapes& shapes) {
   if (shapes.has("point.x")) {
     const NamedShape b = target_of(shapes);
     return {.statements = declared(b) + fmt::format("got_distance = -dGeom{}PointDepth({}, {});\n",
-                                                    is_a<Sphere>(b) ? "Sphere" : "Capsule", b.name,
-                                                    literals(shapes.vector("point"))),
+                                                    is_a<Sphere>(b)      ? "Sphere"
+                                                    : is_a<HalfSpace>(b) ? "Plane"
+                                                                         : "Capsule",
+                                                    b.name, literals(shapes.vector("point"))),
             .members = {"distance"}};
   }
   const auto [a, b] = sides_of(shapes);

@@ -93,6 +93,10 @@ ShapeWords words_of(const collide::Plane<double>& p) {
            {"minus_offset", literal(-p.offset)},
            {"distance", literal(-p.offset / adapters::length(p.normal))}}};
 }
+/// A plane of these libraries is a half-space.
+ShapeWords words_of(const collide::HalfSpace<double>& h) {
+  return words_of(collide::Plane<double>{h.normal, h.offset});
+}
 ShapeWords words_of(const collide::Segment<double>& s) {
   return {Shape::segment, {{"v0", literals(s.v0)}, {"v1", literals(s.v1)}}};
 }

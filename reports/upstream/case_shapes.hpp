@@ -14,7 +14,7 @@ namespace nearmiss {
 using TypedShape =
     std::variant<collide::Sphere<double>, collide::Box<double>, collide::Capsule<double>, collide::Plane<double>,
                  collide::Triangle<double>, collide::AABox<double>, collide::Rectangle<double>,
-                 collide::Segment<double>, collide::Line<double>, collide::Ray<double>>;
+                 collide::Segment<double>, collide::Line<double>, collide::Ray<double>, collide::HalfSpace<double>>;
 
 /// An input of the query that is a shape.
 struct NamedShape {

@@ -22,8 +22,10 @@ namespace grid {
 
 constexpr bool has_size(std::string_view shape) { return shape == "sphere" || shape == "capsule" || shape == "box"; }
 constexpr bool has_edges(std::string_view shape) { return shape != "point" && shape != "sphere"; }
-/// With a radius, a point of the answer follows its normal; parallel edges have many nearest points.
+/// With a radius, a point of the answer follows its normal; parallel edges have many nearest points. A half-space has
+/// one normal, and edges along its plane have many deepest points.
 constexpr Ties ties_of(std::string_view first, std::string_view second) {
+  if (second == "halfspace") return has_edges(first) ? Ties{Tie::position} : Ties{};
   const bool may_be_parallel = has_edges(first) && has_edges(second);
   return has_size(first) || has_size(second) || may_be_parallel ? Ties{Tie::position, Tie::cone} : Ties{Tie::cone};
 }
@@ -65,7 +67,22 @@ constexpr Link of_capsule_box[] = {
     {.kind = Link::Kind::box_as_point,
      .to = query_id("sphere_capsule_overlap"),
      .renamed = {{{"sphere.center", "box.center"}, {"sphere.radius", "-"}}}}};
-constexpr std::span<const Link> of_triangle_triangle{}, of_triangle_box{};
+/// A plane and all behind it.
+constexpr Link as_plane(QueryId to) {
+  return {.kind = Link::Kind::same_decision, .to = to, .renamed = {{{"plane", "halfspace"}}}};
+}
+constexpr Link of_point_halfspace[] = {
+    as_rounded(query_id("sphere_halfspace_overlap"), {{{"sphere.center", "point"}}})};
+constexpr Link of_sphere_halfspace[] = {as_plane(query_id("sphere_plane_penetration"))};
+constexpr Link of_segment_halfspace[] = {
+    as_rounded(query_id("capsule_halfspace_overlap"), {{{"capsule.p0", "segment.v0"}, {"capsule.p1", "segment.v1"}}})};
+constexpr Link of_capsule_halfspace[] = {as_sphere(
+    query_id("sphere_halfspace_overlap"), {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}}})};
+constexpr Link of_box_halfspace[] = {as_plane(query_id("box_plane_penetration")),
+                                     {.kind = Link::Kind::box_as_point,
+                                      .to = query_id("sphere_halfspace_overlap"),
+                                      .renamed = {{{"sphere.center", "box.center"}, {"sphere.radius", "-"}}}}};
+constexpr std::span<const Link> of_triangle_triangle{}, of_triangle_box{}, of_triangle_halfspace{};
 
 constexpr Link decided_by(QueryId overlap) { return {.kind = Link::Kind::sign_of_distance, .to = overlap}; }
 /// A sphere of radius 0 is a point.
@@ -117,6 +134,17 @@ constexpr Link distance_of_capsule_box[] = {
               {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}}})};
 constexpr Link distance_of_triangle_box[] = {decided_by(query_id("triangle_box_overlap"))};
 constexpr Link distance_of_box_box[] = {decided_by(query_id("box_box_overlap"))};
+constexpr Link distance_of_point_halfspace[] = {decided_by(query_id("point_halfspace_overlap"))};
+constexpr Link distance_of_sphere_halfspace[] = {
+    decided_by(query_id("sphere_halfspace_overlap")),
+    as_point(query_id("point_halfspace_signed_distance"), {{{"point", "sphere.center"}}})};
+constexpr Link distance_of_segment_halfspace[] = {decided_by(query_id("segment_halfspace_overlap"))};
+constexpr Link distance_of_capsule_halfspace[] = {
+    decided_by(query_id("capsule_halfspace_overlap")),
+    as_sphere(query_id("sphere_halfspace_signed_distance"),
+              {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}}})};
+constexpr Link distance_of_triangle_halfspace[] = {decided_by(query_id("triangle_halfspace_overlap"))};
+constexpr Link distance_of_box_halfspace[] = {decided_by(query_id("box_halfspace_overlap"))};
 
 }  // namespace grid
 

@@ -194,7 +194,7 @@ class RoundingErrors : public TestOfCause {
     std::vector<std::size_t> positions;
     std::vector<Case> cases;
     for (const Operand& o : question().operands()) {
-      if (o.shape == Shape::plane) return cases;
+      if (has_one_plane(o.shape)) return cases;
       positions.insert(positions.end(), o.positions.begin(), o.positions.end());
     }
     if (positions.empty()) return cases;

@@ -71,6 +71,8 @@ constexpr std::string_view name_of_shape<Ray<T>> = "ray";
 template <class T>
 constexpr std::string_view name_of_shape<Plane<T>> = "plane";
 template <class T>
+constexpr std::string_view name_of_shape<HalfSpace<T>> = "halfspace";
+template <class T>
 constexpr std::string_view name_of_shape<Triangle<T>> = "triangle";
 template <class T>
 constexpr std::string_view name_of_shape<Rectangle<T>> = "rectangle";

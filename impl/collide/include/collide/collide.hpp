@@ -13,11 +13,15 @@
 #include <collide/box_box_projected_distance.hpp>
 #include <collide/box_box_separating_axis.hpp>
 #include <collide/box_box_signed_distance.hpp>
+#include <collide/box_halfspace_overlap.hpp>
+#include <collide/box_halfspace_signed_distance.hpp>
 #include <collide/box_plane_penetration.hpp>
 #include <collide/capsule_box_overlap.hpp>
 #include <collide/capsule_box_signed_distance.hpp>
 #include <collide/capsule_capsule_overlap.hpp>
 #include <collide/capsule_capsule_signed_distance.hpp>
+#include <collide/capsule_halfspace_overlap.hpp>
+#include <collide/capsule_halfspace_signed_distance.hpp>
 #include <collide/capsule_triangle_overlap.hpp>
 #include <collide/capsule_triangle_signed_distance.hpp>
 #include <collide/checked.hpp>
@@ -50,6 +54,8 @@
 #include <collide/point_box_signed_distance.hpp>
 #include <collide/point_capsule_overlap.hpp>
 #include <collide/point_capsule_signed_distance.hpp>
+#include <collide/point_halfspace_overlap.hpp>
+#include <collide/point_halfspace_signed_distance.hpp>
 #include <collide/point_in_rectangle.hpp>
 #include <collide/point_in_triangle.hpp>
 #include <collide/point_segment_signed_distance.hpp>
@@ -62,6 +68,8 @@
 #include <collide/segment_box_signed_distance.hpp>
 #include <collide/segment_capsule_overlap.hpp>
 #include <collide/segment_capsule_signed_distance.hpp>
+#include <collide/segment_halfspace_overlap.hpp>
+#include <collide/segment_halfspace_signed_distance.hpp>
 #include <collide/segment_segment_signed_distance.hpp>
 #include <collide/segment_triangle_overlap.hpp>
 #include <collide/segment_triangle_signed_distance.hpp>
@@ -72,6 +80,8 @@
 #include <collide/sphere_box_signed_distance.hpp>
 #include <collide/sphere_capsule_overlap.hpp>
 #include <collide/sphere_capsule_signed_distance.hpp>
+#include <collide/sphere_halfspace_overlap.hpp>
+#include <collide/sphere_halfspace_signed_distance.hpp>
 #include <collide/sphere_plane_penetration.hpp>
 #include <collide/sphere_segment_overlap.hpp>
 #include <collide/sphere_segment_signed_distance.hpp>
@@ -83,6 +93,8 @@
 #include <collide/tiers.hpp>
 #include <collide/triangle_box_overlap.hpp>
 #include <collide/triangle_box_signed_distance.hpp>
+#include <collide/triangle_halfspace_overlap.hpp>
+#include <collide/triangle_halfspace_signed_distance.hpp>
 #include <collide/triangle_triangle_overlap.hpp>
 #include <collide/triangle_triangle_signed_distance.hpp>
 #include <collide/vec3.hpp>

@@ -62,6 +62,19 @@ struct Plane {
   }
 };
 
+/// The half-space of the points x with normal . x + offset <= 0: its plane, and all behind it. `normal` leads out; it
+/// is not zero and need not have unit length.
+template <class T>
+struct HalfSpace {
+  Vec3<T> normal{T(0), T(0), T(1)};
+  T offset{};
+
+  static constexpr auto members() {
+    return std::tuple(member("normal", &HalfSpace::normal, Role::direction),
+                      member("offset", &HalfSpace::offset, Role::offset));
+  }
+};
+
 /// The convex hull of three points. The front is the side to which (v1 - v0) x (v2 - v0) points: from there the
 /// vertices run counterclockwise. Three points on one line are a segment or a point.
 template <class T>

@@ -1,0 +1,18 @@
+/// The signed distance of a box and a half-space, and the points that have it.
+#pragma once
+
+#include <collide/detail/half_spaces.hpp>
+
+namespace collide {
+
+/// The distance of the closed shapes, negative where they overlap, with a normal and two points. A half extent of 0 is
+/// allowed.
+///
+/// 1. point2 - point1 = distance * normal; the normal is a unit vector opposite to that of `halfspace`
+/// 2. no point of `box` is further along the normal than point1; point2 is on the plane
+///
+/// Units: lengths; the normal has none. Never fails. Non-finite input: unspecified numbers. Source:
+/// detail/half_spaces.hpp.
+COLLIDE_SIGNED_DISTANCE_TO_HALF_SPACE(96, box_halfspace_signed_distance, Box, box, HalfSpace, halfspace)
+
+}  // namespace collide
