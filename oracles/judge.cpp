@@ -536,7 +536,8 @@ class Judgement {
       largest = std::max(largest, std::abs(answer_.values[i]));
       furthest = std::max(furthest, here_.error[i].furthest_from_zero());
     }
-    return std::isfinite(largest) ? furthest / ulp(largest, question_.scalar) : HUGE_VAL;
+    const double unit = ulp(std::min(largest, largest_finite(question_.scalar)), question_.scalar);
+    return std::isfinite(largest) ? furthest / unit : HUGE_VAL;
   }
   double largest_forward() const {
     double largest = 0;
