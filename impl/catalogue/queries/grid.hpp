@@ -31,6 +31,11 @@ constexpr Ties ties_of(std::string_view first, std::string_view second) {
 }
 constexpr Role role_of(std::string_view shape) { return shape == "point" ? Role::position : Role::inherited; }
 
+/// Half-spaces are large: a body is more often within one, or far away, than at its plane.
+constexpr Balance balance_of(std::string_view second) {
+  return second == "halfspace" ? Balance{.knifes_edge_per_mille = 7} : Balance{};
+}
+
 /// The same question about two other shapes: a point is a sphere of radius 0, and a segment is a capsule of radius 0.
 constexpr Link as_rounded(QueryId to, std::array<Link::Renamed, 3> renamed) {
   return {.kind = Link::Kind::same_decision, .to = to, .renamed = renamed};
@@ -165,6 +170,7 @@ constexpr Link distance_of_box_halfspace[] = {decided_by(query_id("box_halfspace
                                                                                                           \
     static constexpr Traits traits{.grows = grid::has_size(#first) || grid::has_size(#second),            \
                                    .exchange = alike ? Exchange::always : Exchange::none,                 \
+                                   .balance = grid::balance_of(#second),                                  \
                                    .links = grid::of_##first##_##second};                                 \
   };
 #include "impl/catalogue/grid.def"
