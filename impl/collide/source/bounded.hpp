@@ -43,6 +43,10 @@ struct Bounded {
 
   static double magnitude(double x) { return detail::abs(x); }
 
+  // For detail/signed_distances.hpp.
+  static constexpr bool only_proves = true;  ///< a search is left to numbers that have fewer doubts
+  static bool& doubt() { return Doubt::any; }
+
   friend Bounded operator-(const Bounded& a) { return {-a.value, a.error}; }
   /// True if the compiler can prove that the number is exact, as inputs are. The terms of its error are then not
   /// computed.
@@ -140,6 +144,7 @@ struct WideBounded {
   constexpr WideBounded(const Value& v, double e) noexcept : value(v), error(e) {}
 
   static double magnitude(double x) { return detail::abs(x); }
+  static bool& doubt() { return Doubt::any; }  ///< for detail/signed_distances.hpp
 
   friend WideBounded operator-(const WideBounded& a) { return {-a.value, a.error}; }
   friend WideBounded operator+(const WideBounded& a, const WideBounded& b) {

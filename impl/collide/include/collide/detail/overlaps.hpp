@@ -37,6 +37,7 @@ struct Core {
   using Number = T;
   static constexpr int most_edges = most == 8 ? 12 : most * (most - 1) / 2;
   static constexpr int most_directions = most < 4 ? most_edges : 3;
+  static constexpr bool has_unit_normals = most == 8;
   /// An edge, by one of its vertices and by its direction.
   struct Edge {
     int vertex, direction;

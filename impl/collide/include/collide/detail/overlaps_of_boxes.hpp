@@ -25,9 +25,9 @@ const Vec3<T>& any_point_of(const Box<T>& box) {
   return box.center;
 }
 
-/// Vertex i is center + sum over axes k of (bit k of i ? +1 : -1) * half[k] * axis k, if bit i of `needed` is set.
+/// Vertex i is center + sum over axes k of (bit k of i ? +1 : -1) * half[k] * axis k.
 template <class T>
-CoreOfBox<T> core_of_box(const Vec3<T>& center, const Axes<T>& axes, const Vec3<T>& half, unsigned needed = 0xFF) {
+CoreOfBox<T> core_of_box(const Vec3<T>& center, const Axes<T>& axes, const Vec3<T>& half) {
   CoreOfBox<T> core;
   core.center = center;
   core.reach = {axes[0] * half.x, axes[1] * half.y, axes[2] * half.z};
@@ -37,9 +37,9 @@ CoreOfBox<T> core_of_box(const Vec3<T>& center, const Axes<T>& axes, const Vec3<
     for (int k = 0; k < 3; ++k) {
       const bool further = (i >> k & 1) != 0;
       if (!further) core.edges[edge++] = {i, k};
-      if ((needed >> i & 1) != 0) to_corner = further ? to_corner + core.reach[k] : to_corner - core.reach[k];
+      to_corner = further ? to_corner + core.reach[k] : to_corner - core.reach[k];
     }
-    if ((needed >> i & 1) != 0) core.vertices[i] = core.center + to_corner;
+    core.vertices[i] = core.center + to_corner;
   }
   core.directions = core.normals = axes;
   core.count_of_normals = 3;

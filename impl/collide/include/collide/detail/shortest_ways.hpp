@@ -391,53 +391,6 @@ std::optional<int> edge_with_ends(const Core<T, most>& core, Vertices ends) {
   return std::nullopt;
 }
 
-/// The shortest way between two features, each given by its vertices: vertices and edges, or a face and a vertex that
-/// is across it. None of other features.
-template <class Tier, class T, int of_a, int of_b>
-[[gnu::noinline]] std::optional<WayBetween<T>> way_between_features(const Core<T, of_a>& a, Vertices of,
-                                                                    const Core<T, of_b>& b, Vertices to) {
-  const int count_a = std::popcount(of), count_b = std::popcount(to);
-  const Vec3<T>&vertex_a = a.vertices[std::countr_zero(of)], &vertex_b = b.vertices[std::countr_zero(to)];
-  if (count_a == 1 && count_b == 1) return WayBetween<T>{vertex_a, vertex_b - vertex_a, of, to};
-  if constexpr (of_a >= 3) {
-    if (count_a > 2 && count_b == 1) {
-      std::optional<WayBetween<T>> way = way_from_one_face<Tier>(a, of, vertex_b);
-      if (way) way->to_of = to;
-      return way;
-    }
-  }
-  if constexpr (of_b >= 3) {
-    if (count_a == 1 && count_b > 2) {
-      const std::optional<WayBetween<T>> back = way_from_one_face<Tier>(b, to, vertex_a);
-      return back ? std::optional(WayBetween<T>{vertex_a, -back->way, of, to}) : std::nullopt;
-    }
-  }
-  if (count_a > 2 || count_b > 2) return std::nullopt;
-  if constexpr (of_a > 1) {
-    if (count_a == 2) {
-      const std::optional<int> i = edge_with_ends(a, of);
-      if (!i) return std::nullopt;
-      if constexpr (of_b > 1) {
-        if (count_b == 2) {
-          const std::optional<int> k = edge_with_ends(b, to);
-          return k ? std::optional(way_between_edges<Tier>(a, *i, b, *k)) : std::nullopt;
-        }
-      }
-      WayBetween<T> way = shortest_way<Tier>(edge_of(a, *i), vertex_b);
-      way.from_of = of_edge(a, *i, way.from_of), way.to_of = to;
-      return way;
-    }
-  }
-  if constexpr (of_b > 1) {
-    if (const std::optional<int> k = edge_with_ends(b, to)) {
-      WayBetween<T> way = shortest_way<Tier>(vertex_a, edge_of(b, *k));
-      way.from_of = of, way.to_of = of_edge(b, *k, way.to_of);
-      return way;
-    }
-  }
-  return std::nullopt;
-}
-
 }  // namespace collide::detail
 
 #include <collide/detail/strict_end.hpp>

@@ -13,6 +13,8 @@
 
 #include <bit>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include <collide/detail/shortest_ways.hpp>
 
@@ -98,21 +100,39 @@ template <class Tier, class T, int of_a, int of_b>
 ApartAlong<T> apart_along(const Core<T, of_a>& a, const Core<T, of_b>& b) {
   const WayBetween<T> way = shortest_way<Tier>(a, b);
   const Vec3<T> normal = normal_of<Tier>(way, a, b);
-  return {normal, Tier::dot(way.way, normal), way.from, way.way};
+  return {normal, Tier::dot(way.way, normal), way.from, way.way, way.from_of, way.to_of};
 }
 
 // Of two cores of which one is a triangle or a box.
 
+/// The direction of an edge of a core, and the normal of a face, any length, by its number.
+template <class T, int most>
+const Vec3<T>& direction_at(const Core<T, most>& core, int i) {
+  return core.directions[i];
+}
+template <class T, int most>
+const Vec3<T>& normal_at(const Core<T, most>& core, int i) {
+  return core.normals[i];
+}
+
 /// The direction of a facet of the difference of the cores, any length: of a face of one of them, or across an edge of
 /// each.
-template <class Tier, class T, int of_a, int of_b>
-Vec3<T> facet_of(const Core<T, of_a>& a, const Core<T, of_b>& b, int facet) {
-  if (facet < a.count_of_normals) return a.normals[facet];
-  facet -= a.count_of_normals;
-  if (facet < b.count_of_normals) return b.normals[facet];
-  facet -= b.count_of_normals;
-  constexpr int of_second = int(std::tuple_size_v<decltype(b.directions)>);
-  return across_edges<Tier>(a.directions[facet / of_second], b.directions[facet % of_second]);
+template <class Tier, class A, class B>
+  requires(B::most_edges > 0)
+auto facet_of(const A& a, const B& b, int facet) -> Vec3<typename A::Number> {
+  if constexpr (A::most_edges > 1) {
+    if (facet < a.count_of_normals) return normal_at(a, facet);
+    facet -= a.count_of_normals;
+  }
+  if constexpr (B::most_edges > 1) {
+    if (facet < b.count_of_normals) return normal_at(b, facet);
+    facet -= b.count_of_normals;
+  }
+  if constexpr (A::most_edges > 0) {
+    return across_edges<Tier>(direction_at(a, facet / B::most_directions), direction_at(b, facet % B::most_directions));
+  } else {
+    return {};
+  }
 }
 /// Calls f(direction) for each facet, in the order of their numbers.
 template <class Tier, class T, int of_a, int of_b, class F>
@@ -148,23 +168,13 @@ Vec3<T> across_some_edge(const Core<T, of_a>& a, const Core<T, of_b>& b) {
   return {T(1), T(0), T(0)};
 }
 
-/// What doubles say of two cores, for other numbers to prove: the cores, how they are apart, and how much rounding may
-/// change of a place.
-template <class A, class B>
-struct Guess {
-  A a;
-  B b;
-  ApartAlong<double> apart;
-  double rounding;
-};
-
-/// What has been proved of two cores: they are apart, and the shortest way is between these features; or they overlap
-/// by the least along this facet, and these features meet when they are moved apart.
+/// What is proved of two cores, or proposed: they are apart, and the shortest way is between these features; or they
+/// overlap by the least along a facet, and these features meet when they are moved apart.
 struct Proved {
   bool apart;
-  int facet = -1;
-  bool opposite = false;
   Vertices of, to;
+  int facet = -1;         ///< that these features have; without one, they are a vertex and a vertex or an edge
+  bool opposite = false;  ///< whether the second core is on the other side of the facet
 };
 
 /// Whether each comparison of numbers of this type has the result that numbers with error bounds had before. So what
@@ -201,14 +211,91 @@ constexpr Vertices distinct_of(const CoreOfBox<T>& box, Vertices vertices) {
   return vertices;
 }
 
-/// The distinct vertices of a core that may be furthest along a direction.
-template <class DoubleCore>
-Vertices furthest_vertices(const DoubleCore& core, const Vec3<double>& direction, double rounding) {
+template <class T>
+T largest(const Vec3<T>& v) {
+  return larger(larger(abs(v.x), abs(v.y)), abs(v.z));
+}
+
+/// The distinct vertices of a core that may be furthest along a unit direction. Those of a large box have large errors:
+/// of a box, by the edges that are not nearly perpendicular to the direction.
+template <int most>
+Vertices furthest_vertices(const Core<double, most>& core, const Vec3<double>& direction, double rounding) {
   const double level = projected<Plain>(core, direction).most - 2 * rounding;
   Vertices furthest = 0;
-  for (std::size_t i = 0; i < core.vertices.size(); ++i)
-    furthest |= Vertices(Plain::dot(direction, core.vertices[i]) >= level) << i;
-  return furthest & distinct_vertices(core);
+  for (int i = 0; i < most; ++i) furthest |= Vertices(Plain::dot(direction, core.vertices[i]) >= level) << i;
+  return furthest;
+}
+inline Vertices furthest_vertices(const CoreOfBox<double>& box, const Vec3<double>& direction, double rounding) {
+  Vertices furthest = distinct_vertices(box);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double reach = Plain::dot(direction, box.reach[axis]);
+    const double error = rounding + 16 * std::numeric_limits<double>::epsilon() * largest(box.reach[axis]);
+    if ((box.flat >> axis & 1) == 0 && abs(reach) > error) furthest &= on_side(axis, reach > 0);
+  }
+  return furthest;
+}
+
+/// What doubles say of two cores, for other numbers to prove: the cores, how they are apart, and how much rounding may
+/// change of a place.
+template <class A, class B>
+struct Guess {
+  A a;
+  B b;
+  ApartAlong<double> apart;
+  double rounding;
+
+  bool overlap() const { return apart.apart < -rounding; }
+  struct Furthest {
+    Vertices a, b;
+  };
+  /// The vertices that may be furthest along a direction from A to B.
+  Furthest furthest_along(const Vec3<double>& direction) const {
+    return {furthest_vertices(a, direction, rounding), furthest_vertices(b, -direction, rounding)};
+  }
+  /// The shortest way between what is furthest along the normal, the cores moved apart if they overlap.
+  [[gnu::noinline]] std::optional<WayBetween<double>> way_at_normal() const {
+    const auto [near_a, near_b] = furthest_along(apart.normal);
+    if (!overlap()) return shortest_way_among<Plain>(a, near_a, b, near_b);
+    return shortest_way_among<Plain>(a, near_a, moved_by(apart.normal * -apart.apart, b), near_b);
+  }
+};
+
+/// The double next to a number, or near enough for a guess.
+template <class N>
+double nearest_double(const N& number) {
+  if constexpr (requires { number.rounded(); }) {
+    return double(number.rounded());
+  } else if constexpr (requires { number.value; }) {
+    return nearest_double(number.value);
+  } else if constexpr (requires { number.high; }) {
+    return double(number.high);
+  } else {
+    return double(number);
+  }
+}
+
+/// Whether a number is zero without a doubt.
+template <class T>
+bool is_surely_zero(const T& x) {
+  if constexpr (DecidesEquality<T>) {
+    return x == T(0);
+  } else {
+    return nearest_double(x) == 0 && x.error == 0;
+  }
+}
+/// Whether it is in doubt which sign a number has. Of exact numbers it may take long to tell that they are zero.
+template <class T>
+bool has_doubtful_sign(const T& x) {
+  if constexpr (DecidesEquality<T>) {
+    return true;
+  } else {
+    return !(abs(nearest_double(x)) > 2 * x.error);
+  }
+}
+template <class Tier, class T>
+bool are_surely_parallel(const Vec3<T>& v, const Vec3<T>& w) {
+  const Vec3<T> cross = Tier::cross(v, w);
+  return is_surely_zero(cross.x) && is_surely_zero(cross.y) && is_surely_zero(cross.z);
 }
 
 /// Calls f(v) for each distinct vertex of a core that is not among these, while f returns true.
@@ -220,43 +307,106 @@ bool each_other_vertex(const AnyCore& core, Vertices among, F&& f) {
   return true;
 }
 
-/// Whether no vertex is further along the way than the end of its core, so that no way is shorter. The way is
-/// perpendicular to the features that its ends are within.
-template <class Tier, class T, class A, class B>
-bool is_shortest(const WayBetween<T>& way, const A& a, const B& b) {
-  const Vec3<T> to = way.from + way.way;
-  return each_other_vertex(a, way.from_of,
-                           [&](const Vec3<T>& v) { return Tier::dot(way.way, v - way.from) <= T(0); }) &&
-         each_other_vertex(b, way.to_of, [&](const Vec3<T>& v) { return Tier::dot(way.way, v - to) >= T(0); });
+/// Whether no vertex of a core is further along a direction than a feature that is perpendicular to it. The direction
+/// is also perpendicular to `edge`.
+template <class Tier, class T, int most>
+bool is_furthest(const Core<T, most>& core, Vertices feature, const Vec3<T>& direction, const Vec3<T>* = nullptr) {
+  const Vec3<T>& at = core.vertices[std::countr_zero(feature)];
+  return each_other_vertex(core, feature, [&](const Vec3<T>& v) { return Tier::dot(direction, v - at) <= T(0); });
+}
+/// Of a box: whether no edge that leaves the feature leads further.
+template <class Tier, class T>
+bool is_furthest(const CoreOfBox<T>& box, Vertices feature, const Vec3<T>& direction, const Vec3<T>* edge = nullptr) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool before = (feature & on_side(axis, false)) != 0, behind = (feature & on_side(axis, true)) != 0;
+    if ((box.flat >> axis & 1) != 0 || (before && behind)) continue;
+    const T along = Tier::dot(direction, box.directions[axis]);
+    if (edge != nullptr && has_doubtful_sign(along) && are_surely_parallel<Tier>(*edge, box.directions[axis])) continue;
+    if (!(before ? along <= T(0) : along >= T(0))) return false;
+  }
+  return true;
 }
 
-/// A way between cores that are apart which proves to be a shortest one, between features that doubles propose.
-template <class Tier, class A, class B, class Guess>
-auto proved_shortest_way(const A& a, const B& b, const Guess& guess, std::optional<Proved>& proved)
-    -> std::optional<WayBetween<typename A::Number>> {
-  using T = typename A::Number;
-  const auto is_proved = [&](const std::optional<WayBetween<T>>& way) {
-    return way && Tier::dot(way->way, way->way) > T(0) && is_shortest<Tier>(*way, a, b);
-  };
-  const auto between = [&](Vertices of, Vertices to) -> std::optional<WayBetween<T>> {
-    const auto way = way_between_features<Tier>(a, of, b, to);
-    if (!is_proved(way)) return std::nullopt;
-    proved = {.apart = true, .of = of, .to = to};
-    return way;
-  };
-  const Vertices of = distinct_of(guess.a, guess.apart.of), to = distinct_of(guess.b, guess.apart.to);
-  if (of != 0 && to != 0) {
-    if (const auto way = between(of, to)) return way;
+// What a core says of itself, computed when it is asked for, in the same way: for an answer that needs little of it.
+template <class T>
+struct BoxOnDemand {
+  using Number = T;
+  static constexpr int most_edges = 12, most_directions = 3, count_of_normals = 3;
+  static constexpr bool has_unit_normals = true;
+
+  BoxOnDemand(const Box<T>& box, const Vec3<T>& origin)
+      : center(box.center - origin), axes(axes_of(box.orientation)), half(box.half) {}
+
+  Vec3<T> center;
+  Axes<T> axes;
+  const Vec3<T>& half;
+  T radius{};
+};
+template <class T>
+struct TriangleOnDemand {
+  using Number = T;
+  static constexpr int most_edges = 3, most_directions = 3, count_of_normals = 1;
+  static constexpr bool has_unit_normals = false;
+
+  TriangleOnDemand(const Triangle<T>& triangle, const Vec3<T>& from)
+      : corners{triangle.v0, triangle.v1, triangle.v2}, origin(from) {}
+
+  std::array<Vec3<T>, 3> corners;
+  const Vec3<T>& origin;
+  T radius{};
+};
+template <class T, int most>
+const Vec3<T>& vertex_of(const Core<T, most>& core, int i) {
+  return core.vertices[i];
+}
+template <class T>
+Vec3<T> vertex_of(const TriangleOnDemand<T>& triangle, int i) {
+  return triangle.corners[i] - triangle.origin;
+}
+template <class T>
+Vec3<T> vertex_of(const BoxOnDemand<T>& box, int i) {
+  const auto side = [&](int axis, const T& half) { return box.axes[axis] * ((i >> axis & 1) != 0 ? half : -half); };
+  return box.center + (side(0, box.half.x) + side(1, box.half.y) + side(2, box.half.z));
+}
+template <class T>
+const Vec3<T>& direction_at(const BoxOnDemand<T>& box, int i) {
+  return box.axes[i];
+}
+template <class T>
+const Vec3<T>& normal_at(const BoxOnDemand<T>& box, int i) {
+  return box.axes[i];
+}
+template <class T>
+Vec3<T> direction_at(const TriangleOnDemand<T>& triangle, int i) {
+  return triangle.corners[(i + 1) % 3] - triangle.corners[i];
+}
+template <class T>
+Vec3<T> normal_at(const TriangleOnDemand<T>& triangle, int) {
+  return Plain::cross(direction_at(triangle, 0), direction_at(triangle, 1));
+}
+
+/// The number of the direction of an edge, given by its ends.
+template <class Core>
+int direction_number(const Core&, Vertices ends) {
+  if constexpr (Core::most_edges == 3) return ends == 3 ? 0 : ends == 6 ? 1 : 2;
+  if constexpr (Core::most_edges == 12)
+    return std::countr_zero(unsigned(std::countr_zero(ends) ^ (std::bit_width(ends) - 1)));
+  return 0;
+}
+/// The direction of an edge; none of another feature.
+template <class T, int most>
+const Vec3<T>* direction_of(const Core<T, most>& core, Vertices feature) {
+  if constexpr (most > 1) {
+    if (std::popcount(feature) == 2) return &core.directions[direction_number(core, feature)];
   }
-  const Vertices near_a = furthest_vertices(guess.a, guess.apart.normal, guess.rounding);
-  const Vertices near_b = furthest_vertices(guess.b, -guess.apart.normal, guess.rounding);
-  const auto proposed = shortest_way_among<Plain>(guess.a, near_a, guess.b, near_b);
-  if (!proposed) return std::nullopt;
-  if (proposed->from_of != of || proposed->to_of != to) {
-    if (const auto way = between(proposed->from_of, proposed->to_of)) return way;
-  }
-  const auto way = shortest_way_among<Tier>(a, near_a, b, near_b);
-  return is_proved(way) ? way : std::nullopt;
+  return nullptr;
+}
+
+/// Whether a way, perpendicular to the features at its ends, has a length and no way is shorter.
+template <class Tier, class T, class A, class B>
+bool is_shortest(const WayBetween<T>& way, const A& a, const B& b) {
+  return Tier::dot(way.way, way.way) > T(0) && is_furthest<Tier>(a, way.from_of, way.way, direction_of(b, way.to_of)) &&
+         is_furthest<Tier>(b, way.to_of, -way.way, direction_of(a, way.from_of));
 }
 
 /// The direction of the facet of the difference of two cores along which they are apart by the most: the facet's number
@@ -292,31 +442,6 @@ auto facet_of_most(const A& a, const B& b) {
   return most;
 }
 
-/// The way between what is furthest along a facet's direction, the second core moved back by `out`: of no length, if
-/// the cores touch there. It is between vertices that doubles propose, if every other vertex is less far than one of
-/// these; nullopt if not. Cores that touch there have a common point between these vertices; so do two features that
-/// have these and no other vertices.
-template <class Tier, class T, class A, class B, class Guess>
-std::optional<WayBetween<T>> way_along_facet(const A& a, const B& b, const Vec3<T>& out, const FacetOfMost<T>& most,
-                                             const Guess& guess, std::optional<Proved>& proved) {
-  const Vec3<double> facet = facet_of<Plain>(guess.a, guess.b, most.facet);
-  const Vec3<double> along = facet == Vec3<double>{} ? facet : unit_of<Plain>(most.opposite ? -facet : facet);
-  const Vertices near_a = furthest_vertices(guess.a, along, guess.rounding);
-  const Vertices near_b = furthest_vertices(guess.b, -along, guess.rounding);
-  if (near_a == 0 || near_b == 0) return std::nullopt;
-  const Vec3<T>&of = a.vertices[std::countr_zero(near_a)], &to = b.vertices[std::countr_zero(near_b)];
-  const bool among_these =
-      each_other_vertex(a, near_a, [&](const Vec3<T>& v) { return Tier::dot(most.direction, v - of) < T(0); }) &&
-      each_other_vertex(b, near_b, [&](const Vec3<T>& v) { return Tier::dot(most.direction, v - to) > T(0); });
-  if (!among_these) return std::nullopt;
-  const auto moved = moved_by(-out, b);
-  if (const auto way = way_between_features<Tier>(a, near_a, moved, near_b)) {
-    proved = {.apart = false, .facet = most.facet, .opposite = most.opposite, .of = near_a, .to = near_b};
-    return way;
-  }
-  return shortest_way_among<Tier>(a, near_a, moved, near_b);
-}
-
 /// The answer along a shortest way.
 template <class Tier, class T>
 ApartAlong<T> along_way(const WayBetween<T>& way) {
@@ -335,51 +460,320 @@ ApartAlong<T> along_facet(const FacetOfMost<T>& most, const Vec3<T>& from) {
   return {most.direction * (T(1) / length), most.gap / length, from, out_of(most)};
 }
 
-/// The answer from what has been proved. None where numbers of more digits leave their range.
-template <class Tier, class A, class B>
-[[gnu::noinline]] auto apart_as_proved(const A& a, const B& b, const Proved& proved)
-    -> std::optional<ApartAlong<typename A::Number>> {
-  using T = typename A::Number;
-  if (proved.apart) {
-    const auto way = way_between_features<Tier>(a, proved.of, b, proved.to);
-    return way ? std::optional(along_way<Tier>(*way)) : std::nullopt;
+/// The number of a face among the normals of its core; of a vertex, an edge or all of a flat core, -1.
+template <class T, int most>
+int normal_of_face(const Core<T, most>&, Vertices face) {
+  if constexpr (most == 8) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (face == on_side(axis, false) || face == on_side(axis, true)) return axis;
+    }
+    return -1;
   }
-  FacetOfMost<T> most;
-  with_both_sides<Tier>(facet_of<Tier>(a, b, proved.facet), proved.facet, a, b, [&](const FacetOfMost<T>& side) {
-    if (side.opposite == proved.opposite) most = side;
-  });
-  const auto way = way_between_features<Tier>(a, proved.of, moved_by(-out_of(most), b), proved.to);
-  return way ? std::optional(along_facet<Tier>(most, way->from)) : std::nullopt;
+  return most == 3 && face == all_vertices<3> ? 0 : -1;
+}
+/// The facet of the difference of two cores that a face of one and a vertex of the other have, or an edge of each; -1
+/// of other features.
+template <class T, int of_a, int of_b>
+int facet_of_features(const Core<T, of_a>& a, Vertices of, const Core<T, of_b>& b, Vertices to) {
+  const int count_a = std::popcount(of), count_b = std::popcount(to);
+  if (count_b == 1 && count_a > 2) return normal_of_face(a, of);
+  if (count_a == 1 && count_b > 2) {
+    const int face = normal_of_face(b, to);
+    return face < 0 ? face : a.count_of_normals + face;
+  }
+  if constexpr (of_a > 1 && of_b > 1) {
+    if (count_a == 2 && count_b == 2) {
+      const auto i = edge_with_ends(a, of), k = edge_with_ends(b, to);
+      if (i && k)
+        return a.count_of_normals + b.count_of_normals + a.edges[*i].direction * int(b.directions.size()) +
+               b.edges[*k].direction;
+    }
+  }
+  return -1;
 }
 
-/// Of exact numbers, and of those with error bounds. Cores that overlap along each facet of their difference do so
-/// least along one of them, and have a common point when they are moved apart by as much. Otherwise a shortest way is
-/// the answer, unless they touch. What doubles propose is tried first: a proof of an answer is short, a search is not.
-template <class Tier, class A, class B, class Proposal>
-[[gnu::noinline]] auto exactly_apart(const A& a, const B& b, Proposal& proposal) {
+/// Whether a point is across a face, which is closed.
+template <class Tier, class T, int most>
+  requires(most < 3)
+bool is_across_face(const Core<T, most>&, Vertices, const Vec3<T>&) {
+  return false;
+}
+template <class Tier, class T>
+bool is_across_face(const Core<T, 3>& triangle, Vertices, const Vec3<T>& point) {
+  for (int i = 0; i < 3; ++i) {
+    const Vec3<T> inward = Tier::cross(triangle.normals[0], triangle.directions[i]);
+    if (!(Tier::dot(inward, point - triangle.vertices[i]) >= T(0))) return false;
+  }
+  return true;
+}
+template <class Tier, class T>
+bool is_across_face(const Core<T, 8>& box, Vertices face, const Vec3<T>& point) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool is_of_face = (face & on_side(axis, false)) != 0 && (face & on_side(axis, true)) != 0;
+    const Vec3<T>& along = box.directions[axis];
+    if (is_of_face &&
+        !(Tier::dot(along, point - box.vertices[0]) >= T(0) && Tier::dot(along, point - box.vertices[7]) <= T(0)))
+      return false;
+  }
+  return true;
+}
+
+/// The answer along the facet that two features have, one of them a vertex and the other a face, or both edges. None
+/// where numbers that prove find that these features are not across each other, or that a vertex is further along the
+/// facet than they are.
+template <class Tier, class A, class B>
+auto apart_along_facet(const A& a, const B& b, const Proved& features)
+    -> std::optional<ApartAlong<typename A::Number>> {
   using T = typename A::Number;
-  std::optional<Proved>& proved = proposal.proved;
-  proved.reset();
-  const auto& guess = proposal.guess();
-  const bool seem_to_overlap = guess.apart.apart < -guess.rounding;
-  if (!seem_to_overlap) {
-    if (const auto way = proved_shortest_way<Tier>(a, b, guess, proved)) return along_way<Tier>(*way);
+  constexpr bool proves = !FollowsDecisions<T>;
+  const auto& [is_apart, of, to, facet, opposite] = features;
+  const Vec3<T>&on_a = vertex_of(a, std::countr_zero(of)), &on_b = vertex_of(b, std::countr_zero(to));
+  const Vec3<T> direction = facet_of<Tier>(a, b, facet), normal = opposite ? -direction : direction;
+  const Vec3<T> between = on_b - on_a;
+  const T gap = Tier::dot(normal, between);
+  if constexpr (proves) {
+    if (!(is_apart ? gap > T(0) : gap < T(0))) return std::nullopt;
+    if (!is_furthest<Tier>(a, of, normal) || !is_furthest<Tier>(b, to, -normal)) return std::nullopt;
   }
+  const bool of_a = facet < a.count_of_normals, of_b = !of_a && facet < a.count_of_normals + b.count_of_normals;
+  if ((of_a && A::has_unit_normals) || (of_b && B::has_unit_normals)) {
+    const Vec3<T> way = normal * gap;
+    if constexpr (proves) {
+      if (of_a ? !is_across_face<Tier>(a, of, on_b) : !is_across_face<Tier>(b, to, on_a)) return std::nullopt;
+    }
+    return ApartAlong<T>{normal, gap, of_a ? on_b - way : on_a, way};
+  }
+  const T length2 = Tier::dot(direction, direction);
+  if constexpr (proves) {
+    if (!(length2 > T(0))) return std::nullopt;
+  }
+  const T length = sqrt(length2);
+  const Vec3<T> way = normal * (gap / length2);
+  ApartAlong<T> apart{normal * (T(1) / length), gap / length, on_a, way};
+  if (of_a || of_b) {
+    if constexpr (proves) {
+      if (of_a ? !is_across_face<Tier>(a, of, on_b) : !is_across_face<Tier>(b, to, on_a)) return std::nullopt;
+    }
+    if (of_a) apart.from = on_b - way;
+    return apart;
+  }
+  if constexpr (A::most_edges > 0 && B::most_edges > 0) {
+    // The point of an edge that is across the other one, by parts of the edges perpendicular to the facet.
+    const Vec3<T>&d = direction_at(a, direction_number(a, of)), &e = direction_at(b, direction_number(b, to));
+    const Vec3<T> beside_b = Tier::cross(e, direction);
+    const T at = Tier::dot(beside_b, between);
+    if constexpr (proves) {
+      const Vec3<T> beside_a = Tier::cross(d, direction);
+      const Vec3<T>&end_a = vertex_of(a, std::bit_width(of) - 1), &end_b = vertex_of(b, std::bit_width(to) - 1);
+      const auto is_between = [](const T& first, const T& second) {
+        return first > T(0) ? second < T(0) : first < T(0) && second > T(0);
+      };
+      if (!is_between(at, Tier::dot(beside_b, on_b - end_a)) ||
+          !is_between(Tier::dot(beside_a, between), Tier::dot(beside_a, end_b - on_a)))
+        return std::nullopt;
+    }
+    apart.from = on_a + d * (at / length2);
+    return apart;
+  }
+  return std::nullopt;
+}
+
+/// The way from a point or an edge, given by its ends, to a point.
+template <class Tier, class A, class T>
+WayBetween<T> way_from(const A& core, Vertices feature, const Vec3<T>& point) {
+  int first = std::countr_zero(feature), last = std::bit_width(feature) - 1;
+  if constexpr (A::most_edges == 3) {
+    if (first == 0 && last == 2) std::swap(first, last);  // that edge leads from the last vertex to the first one
+  }
+  const Vec3<T>& from = vertex_of(core, first);
+  if constexpr (A::most_edges > 0) {
+    if (first != last)
+      return shortest_way<Tier>(
+          EdgeOfCore<T>{from, vertex_of(core, last), direction_at(core, direction_number(core, feature))}, point);
+  }
+  return {from, point - from};
+}
+
+/// The shortest way between two features that have no facet, a vertex and a vertex or an edge. None of others, and none
+/// where it ends at the end of the edge.
+template <class Tier, class A, class B>
+auto way_without_facet(const A& a, Vertices of, const B& b, Vertices to)
+    -> std::optional<WayBetween<typename A::Number>> {
+  using T = typename A::Number;
+  const bool from_edge = std::popcount(of) == 2, to_edge = std::popcount(to) == 2;
+  const Vec3<T>&on_a = vertex_of(a, std::countr_zero(of)), &on_b = vertex_of(b, std::countr_zero(to));
+  if (std::popcount(of) + std::popcount(to) > 3) return std::nullopt;
+  WayBetween<T> way = from_edge ? way_from<Tier>(a, of, on_b) : way_from<Tier>(b, to, on_a);
+  if constexpr (!FollowsDecisions<T>) {
+    if ((from_edge || to_edge) && way.from_of != both_ends) return std::nullopt;
+  }
+  if (!from_edge) way.from = on_a, way.way = -way.way;
+  way.from_of = of, way.to_of = to;
+  return way;
+}
+
+/// The answer from what has been proved.
+template <class Tier, class A, class B>
+auto apart_as_proved(const A& a, const B& b, const Proved& proved) -> ApartAlong<typename A::Number> {
+  if (proved.facet >= 0) return *apart_along_facet<Tier>(a, b, proved);
+  return along_way<Tier>(*way_without_facet<Tier>(a, proved.of, b, proved.to));
+}
+
+/// A facet of the difference of two boxes across two edges, of which one is parallel to another edge of the other box
+/// without a doubt, is parallel to a face: its number. Of any other facet its own number.
+template <class Tier, class A, class B>
+int face_parallel_to(const A& a, const B& b, int facet) {
+  if constexpr (A::has_unit_normals && B::has_unit_normals) {
+    if (facet < 6) return facet;
+    const int i = (facet - 6) / 3, j = (facet - 6) % 3;
+    for (int k = 0; k < 3; ++k) {
+      if (k != j && are_surely_parallel<Tier>(a.directions[i], b.directions[k])) return 3 + (3 - j - k);
+      if (k != i && are_surely_parallel<Tier>(a.directions[k], b.directions[j])) return 3 - i - k;
+    }
+  }
+  return facet;
+}
+
+/// Whether cores overlap along each facet of their difference, and along no other one by less than along this one,
+/// where these features are furthest.
+template <class Tier, class A, class B>
+[[gnu::noinline]] bool is_least_overlap(const A& a, const B& b, const Proved& features) {
+  using T = typename A::Number;
+  const Vec3<T> facet = facet_of<Tier>(a, b, features.facet), normal = features.opposite ? -facet : facet;
+  const T length2 = Tier::dot(facet, facet);
+  const T gap =
+      Tier::dot(normal, b.vertices[std::countr_zero(features.to)] - a.vertices[std::countr_zero(features.of)]);
+  const T gap2 = gap * gap;
+  bool is_least = true;
+  int number = 0;
+  for_each_facet<Tier>(a, b, [&](const Vec3<T>& other) {
+    const int own = number++;
+    if (!is_least) return;
+    with_both_sides<Tier>(other, own, a, b, [&](const FacetOfMost<T>& side) {
+      if (!is_least || (side.facet == features.facet && side.opposite == features.opposite)) return;
+      const T theirs = side.gap * side.gap * length2, ours = gap2 * side.length2;
+      const bool is_same = has_doubtful_sign(theirs - ours) &&
+                           (are_surely_parallel<Tier>(side.direction, normal) ||
+                            face_parallel_to<Tier>(a, b, own) == face_parallel_to<Tier>(a, b, features.facet)) &&
+                           Tier::dot(side.direction, normal) > T(0);
+      is_least = is_same || (side.gap < T(0) && theirs >= ours);
+    });
+  });
+  return is_least;
+}
+
+/// What a proof finds. One that fails or leaves a doubt finds nothing, and leaves no doubt.
+template <class T, class Proof>
+auto found_without_doubt(Proof&& proof) {
+  if constexpr (DecidesEquality<T>) {
+    return proof();
+  } else {
+    const bool before = std::exchange(T::doubt(), false);
+    auto found = proof();
+    if (T::doubt()) found.reset();
+    T::doubt() = before;
+    return found;
+  }
+}
+
+/// The answer between these features, if it proves to be one.
+template <class Tier, class A, class B, class Guess>
+auto apart_between(const A& a, Vertices of, const B& b, Vertices to, const Guess& guess, std::optional<Proved>& proved)
+    -> std::optional<ApartAlong<typename A::Number>> {
+  Proved proposed{.apart = !guess.overlap(), .of = of, .to = to, .facet = facet_of_features(guess.a, of, guess.b, to)};
+  if (proposed.facet >= 0) {
+    const Vec3<double> facet = facet_of<Plain>(guess.a, guess.b, proposed.facet);
+    proposed.opposite = Plain::dot(facet, guess.apart.normal) < 0;
+  }
+  using T = typename A::Number;
+  const auto apart = found_without_doubt<T>([&]() -> std::optional<ApartAlong<T>> {
+    if (proposed.facet >= 0) {
+      if (!proposed.apart && !is_least_overlap<Tier>(a, b, proposed)) return std::nullopt;
+      return apart_along_facet<Tier>(a, b, proposed);
+    }
+    const auto way = proposed.apart ? way_without_facet<Tier>(a, of, b, to) : std::nullopt;
+    return way && is_shortest<Tier>(*way, a, b) ? std::optional(along_way<Tier>(*way)) : std::nullopt;
+  });
+  if (apart) proved = proposed;
+  return apart;
+}
+
+/// The answer between features that doubles propose, if it proves to be one: a proof is short, a search is not.
+template <class Tier, class A, class B, class Guess>
+auto apart_as_proposed(const A& a, const B& b, const Guess& guess, std::optional<Proved>& proved)
+    -> std::optional<ApartAlong<typename A::Number>> {
+  Vertices of = distinct_of(guess.a, guess.apart.of), to = distinct_of(guess.b, guess.apart.to);
+  for (const bool is_last : {false, true}) {
+    if (is_last) {
+      const auto way = guess.way_at_normal();
+      if (!way || (way->from_of == of && way->to_of == to)) break;
+      of = way->from_of, to = way->to_of;
+    } else if (of == 0 || to == 0) {
+      continue;
+    }
+    if (const auto apart = apart_between<Tier>(a, of, b, to, guess, proved)) return apart;
+  }
+  return std::nullopt;
+}
+
+/// Of exact numbers, and of those with error bounds, where what doubles propose has not been proved. Cores that overlap
+/// along each facet of their difference do so least along one of them, and have a common point when they are moved
+/// apart by as much. Otherwise a shortest way is the answer, unless they touch. What is furthest along a direction is
+/// asked first: if every other vertex is less far than one of these, cores that touch there have a common point
+/// between these.
+template <class Tier, class A, class B, class Guess>
+[[gnu::noinline]] auto apart_by_search(const A& a, const B& b, const Guess& guess) {
+  using T = typename A::Number;
   const FacetOfMost<T> most = facet_of_most<Tier>(a, b);
-  if (most.facet >= 0 && most.gap < T(0)) {
-    std::optional<WayBetween<T>> way = way_along_facet<Tier>(a, b, out_of(most), most, guess, proved);
-    if (!way) way = shortest_of_ways<Tier>(a, moved_by(-out_of(most), b));
-    return along_facet<Tier>(most, way->from);
-  }
-  if (most.facet >= 0 && most.gap == T(0)) {
-    const auto way = way_along_facet<Tier>(a, b, Vec3<T>{}, most, guess, proved);
+  const auto along_most = [&] {
+    const Vec3<double> facet = facet_of<Plain>(guess.a, guess.b, most.facet);
+    return guess.furthest_along(facet == Vec3<double>{} ? facet : unit_of<Plain>(most.opposite ? -facet : facet));
+  };
+  if (most.facet >= 0 && most.gap <= T(0)) {
+    const auto moved = moved_by(-out_of(most), b);
+    const auto [near_a, near_b] = along_most();
+    const auto is_less_far = [&](const auto& core, Vertices near, const Vec3<T>& direction) {
+      const Vec3<T>& at = core.vertices[std::countr_zero(near)];
+      return each_other_vertex(core, near, [&](const Vec3<T>& v) { return Tier::dot(direction, v - at) < T(0); });
+    };
+    std::optional<WayBetween<T>> way;
+    if (is_less_far(a, near_a, most.direction) && is_less_far(b, near_b, -most.direction))
+      way = shortest_way_among<Tier>(a, near_a, moved, near_b);
+    if (most.gap < T(0)) {
+      if (!way) way = shortest_of_ways<Tier>(a, moved);
+      return along_facet<Tier>(most, way->from);
+    }
     if (way && way->way == Vec3<T>{}) return ApartAlong<T>{unit_of<Tier>(most.direction), T(0), way->from, {}};
+  } else {
+    const auto shortest_among = [&](const auto& near) {
+      const auto way = shortest_way_among<Tier>(a, near.a, b, near.b);
+      return way && is_shortest<Tier>(*way, a, b) ? way : std::nullopt;
+    };
+    auto way = shortest_among(guess.furthest_along(guess.apart.normal));
+    if (!way && most.facet >= 0) way = shortest_among(along_most());
+    if (way) return along_way<Tier>(*way);
   }
-  proved.reset();
   const WayBetween<T> way = shortest_of_ways<Tier>(a, b);
   if (gap_along<Tier>(way.way, a, b) > T(0)) return along_way<Tier>(way);
   return ApartAlong<T>{
       unit_of<Tier>(most.facet >= 0 ? most.direction : across_some_edge<Tier>(a, b)), T(0), way.from, {}};
+}
+
+/// Of exact numbers, and of those with error bounds.
+template <class Tier, class A, class B, class Proposal>
+auto exactly_apart(const A& a, const B& b, Proposal& proposal) -> ApartAlong<typename A::Number> {
+  using T = typename A::Number;
+  proposal.proved.reset();
+  const auto& guess = proposal.guess();
+  if (const auto apart = apart_as_proposed<Tier>(a, b, guess, proposal.proved)) return *apart;
+  if constexpr (A::most_edges < 2 && B::most_edges < 2) {
+    return apart_along<Tier>(a, b);
+  } else if constexpr (requires { T::only_proves; }) {
+    T::doubt() = true;
+    return {};
+  } else {
+    return apart_by_search<Tier>(a, b, guess);
+  }
 }
 
 /// The shortest ways between every two features of the cores: the shortest of them, and the lengths of all.
@@ -419,6 +813,9 @@ class AllWays {
   T least2_{};
 };
 
+/// The tier of a guess: of cores that overlap it needs no points.
+struct Guessing : Plain {};
+
 /// Of machine numbers, where rounding may be as large as what tells one way from another. By weak duality, the
 /// normal and the points of an answer belong together if its defect is zero. So each normal along which the cores are
 /// apart by the most, but for rounding, is asked with each way between the features that are furthest along it, the
@@ -436,6 +833,13 @@ class LeastDefect {
   /// Whether they overlap along each facet of their difference.
   bool overlap() const { return overlap_; }
   [[gnu::noinline]] ApartAlong<T> of_facets() {
+    if constexpr (std::same_as<Tier, Guessing>) {
+      for (int i = 0; overlap_ && i < count_of_facets_; ++i) {
+        const auto& [unit, a, b] = facets_[i];
+        if (b.least - a.most == most_) return {unit, most_, {}, {}};
+        if (a.least - b.most == most_) return {-unit, most_, {}, {}};
+      }
+    }
     for (int i = 0; i < count_of_facets_; ++i) try_both(facets_[i]);
     return best_;
   }
@@ -521,11 +925,6 @@ class LeastDefect {
   T most_ = -std::numeric_limits<T>::max(), least_defect_ = std::numeric_limits<T>::infinity();
   ApartAlong<T> best_{};
 };
-
-template <class T>
-T largest(const Vec3<T>& v) {
-  return larger(larger(abs(v.x), abs(v.y)), abs(v.z));
-}
 
 template <class T, int most>
 T largest_coordinate(const Core<T, most>& core) {
@@ -711,23 +1110,22 @@ ApartAlong<T> apart_from_box(const Core<T, of_a>& core, const Axes<T>& axes, con
   return {unit_of<Tier>(out(local.normal)), local.apart, out(local.from), out(local.way), local.of, local.to};
 }
 
-/// Whether cores of these types are apart by what exactly_apart tells: one of them is a triangle or a box, and the
-/// numbers are no machine numbers.
+/// Whether cores of these types are apart by what exactly_apart tells, and whether that always proves: one of them is a
+/// triangle or a box. The numbers are no machine numbers.
 template <class A, class B>
-constexpr bool needs_proof = !MachineNumber<typename A::Number> && (A::most_edges > 1 || B::most_edges > 1);
+constexpr bool has_proposals = !MachineNumber<typename A::Number> && A::most_edges + B::most_edges > 1;
+template <class A, class B>
+constexpr bool needs_proof = has_proposals<A, B> && (A::most_edges > 1 || B::most_edges > 1);
 
-/// The double next to a number, or near enough for a guess.
-template <class N>
-double nearest_double(const N& number) {
-  if constexpr (requires { number.rounded(); }) {
-    return double(number.rounded());
-  } else if constexpr (requires { number.value; }) {
-    return nearest_double(number.value);
-  } else if constexpr (requires { number.high; }) {
-    return double(number.high);
-  } else {
-    return double(number);
-  }
+/// The same shape; a box with a quaternion of moderate length.
+template <class Shape>
+const Shape& with_moderate_rotation(const Shape& shape) {
+  return shape;
+}
+template <class T>
+Box<T> with_moderate_rotation(const Box<T>& box) {
+  const auto [x, y, z, w] = rescaled(box.orientation);
+  return {box.center, box.half, {x, y, z, w}};
 }
 
 /// The same shape in doubles.
@@ -790,32 +1188,35 @@ inline SignedDistance<T> signed_distance(const A& a, const Box<T>& box) {
   return detail::with_radii(detail::apart_from_box<Tier>(first, axes, box.half), box.center, first.radius, T(0));
 }
 
-/// How doubles say that two shapes with these cores are apart, but for the points.
-template <class A, class B, class CoreA, class CoreB>
-detail::ApartAlong<double> doubles_apart(const A& a, const CoreA& first, const B& b, const CoreB& second) {
-  if constexpr (std::same_as<B, Box<double>>) {
-    if constexpr (std::same_as<A, Box<double>>) {
-      if (detail::largest(a.half) > detail::largest(b.half)) {
-        const auto back = doubles_apart(b, second, a, first);
-        return {-back.normal, back.apart, {}, {}, back.to, back.of};
-      }
-    }
-    const Axes<double> axes = axes_of(b.orientation);
-    return detail::apart_from_box<Plain>(detail::core_in_frame<Plain>(axes, b.center, a), axes, b.half);
-  } else {
-    return detail::apart_along<Plain>(first, second);
-  }
-}
-
-/// What doubles say of two shapes.
+/// What doubles say of two shapes, but for the points: in the frame of the box, of the larger one of two.
 template <class A, class B>
 [[gnu::noinline]] auto guess_between(const A& a, const B& b) {
   const Vec3<double>& origin = detail::any_point_of(a);
   const auto first = detail::core_of<Plain>(a, origin);
   const auto second = detail::core_of<Plain>(b, origin);
-  const double size = larger(detail::largest_coordinate(first), detail::largest_coordinate(second));
-  return detail::Guess<std::remove_const_t<decltype(first)>, std::remove_const_t<decltype(second)>>{
-      first, second, doubles_apart(a, first, b, second), 64 * std::numeric_limits<double>::epsilon() * size};
+  detail::Guess<std::remove_const_t<decltype(first)>, std::remove_const_t<decltype(second)>> guess{
+      first, second, {}, 0};
+  if constexpr (std::same_as<B, Box<double>>) {
+    const auto in_frame_of_second = [](const auto& one, const Box<double>& box) {
+      const Axes<double> axes = axes_of(box.orientation);
+      const auto local = detail::core_in_frame<Plain>(axes, box.center, one);
+      return std::pair(detail::apart_from_box<detail::Guessing>(local, axes, box.half),
+                       detail::rounding_between(local, detail::aligned_core(box.half)));
+    };
+    if constexpr (std::same_as<A, Box<double>>) {
+      if (detail::largest(a.half) > detail::largest(b.half)) {
+        const auto [back, rounding] = in_frame_of_second(b, a);
+        guess.apart = {-back.normal, back.apart, {}, {}, back.to, back.of};
+        guess.rounding = rounding;
+        return guess;
+      }
+    }
+    std::tie(guess.apart, guess.rounding) = in_frame_of_second(a, b);
+  } else {
+    guess.apart = detail::apart_along<detail::Guessing>(first, second);
+    guess.rounding = detail::rounding_between(first, second);
+  }
+  return guess;
 }
 
 /// What doubles say of two shapes, computed when it is asked for the first time, and what was proved of it.
@@ -839,28 +1240,25 @@ class Proposal {
   std::optional<OfDoubles> guess_;
 };
 
-/// The core of a shape; of a box, with the vertices that these features and its faces need.
-template <class Tier, class T, class Shape>
-auto core_with(detail::Vertices features, const Shape& shape, const Vec3<T>& origin) {
+/// The core of a shape, of which little is asked for.
+template <class Tier, class Shape, class T>
+auto core_on_demand(const Shape& shape, const Vec3<T>& origin) {
   if constexpr (std::same_as<Shape, Box<T>>) {
-    return detail::core_of_box(shape.center - origin, axes_of(shape.orientation), shape.half, features | 1u | 1u << 7);
+    return detail::BoxOnDemand<T>(shape, origin);
+  } else if constexpr (std::same_as<Shape, Triangle<T>>) {
+    return detail::TriangleOnDemand<T>(shape, origin);
   } else {
     return detail::core_of<Tier>(shape, origin);
   }
 }
 
-/// The signed distance from what has been proved; none without.
+/// The signed distance from what has been proved.
 template <class Tier, class A, class B>
-auto signed_distance_as_proved(const A& a, const B& b, const std::optional<detail::Proved>& proved) {
+auto signed_distance_as_proved(const A& a, const B& b, const detail::Proved& proved) {
   const auto& origin = detail::any_point_of(a);
-  using T = std::remove_cvref_t<decltype(origin.x)>;
-  std::optional<SignedDistance<T>> distance;
-  if (!proved) return distance;
-  const auto first = core_with<Tier>(proved->of, a, origin);
-  const auto second = core_with<Tier>(proved->to, b, origin);
-  if (const auto apart = detail::apart_as_proved<Tier>(first, second, *proved))
-    distance = detail::with_radii(*apart, origin, first.radius, second.radius);
-  return distance;
+  const auto& first = core_on_demand<Tier>(a, origin);
+  const auto& second = core_on_demand<Tier>(b, origin);
+  return detail::with_radii(detail::apart_as_proved<Tier>(first, second, proved), origin, first.radius, second.radius);
 }
 
 /// The same, for a proposal that serves the same shapes in other numbers.
@@ -871,19 +1269,26 @@ auto signed_distance(const A& a, const B& b, Proposal& proposal) {
   if constexpr (MachineNumber<T>) {
     return signed_distance<Tier>(a, b);
   } else {
-    if constexpr (detail::FollowsDecisions<T>) {
-      if (const auto apart = signed_distance_as_proved<Tier>(a, b, proposal.proved)) return *apart;
-    }
-    const auto first = detail::core_of<Tier>(a, origin);
-    const auto second = detail::core_of<Tier>(b, origin);
-    const auto apart = [&] {
-      if constexpr (detail::needs_proof<decltype(first), decltype(second)>) {
+    using First = decltype(detail::core_of<Tier>(a, origin));
+    using Second = decltype(detail::core_of<Tier>(b, origin));
+    constexpr bool follows = detail::FollowsDecisions<T>;
+    const auto with = [&](const auto& apart_of) {
+      const First first = detail::core_of<Tier>(a, origin);
+      const Second second = detail::core_of<Tier>(b, origin);
+      return detail::with_radii(apart_of(first, second), origin, first.radius, second.radius);
+    };
+    const auto along = [](const auto& first, const auto& second) { return detail::apart_along<Tier>(first, second); };
+    if constexpr (follows && detail::needs_proof<First, Second>) {
+      return signed_distance_as_proved<Tier>(a, b, *proposal.proved);
+    } else if constexpr (follows && detail::has_proposals<First, Second>) {
+      return proposal.proved ? signed_distance_as_proved<Tier>(a, b, *proposal.proved) : with(along);
+    } else if constexpr (detail::has_proposals<First, Second>) {
+      return with([&](const First& first, const Second& second) {
         return detail::exactly_apart<Tier>(first, second, proposal);
-      } else {
-        return detail::apart_along<Tier>(first, second);
-      }
-    }();
-    return detail::with_radii(apart, origin, first.radius, second.radius);
+      });
+    } else {
+      return with(along);
+    }
   }
 }
 
@@ -919,11 +1324,13 @@ constexpr Contract signed_distance(double backward) {
   template <class Tier, class T>                                                                      \
   inline SignedDistance<T> name(const First<T>& first, const Second<T>& second) {                     \
     if constexpr (Tier::template lifts<T>) {                                                          \
+      const auto& one = detail::with_moderate_rotation(first);                                        \
+      const auto& other = detail::with_moderate_rotation(second);                                     \
       return Tier::lift(                                                                              \
-          [proposal = Proposal(first, second)](auto tier, const auto& a, const auto& b) mutable {     \
+          [proposal = Proposal(one, other)](auto tier, const auto& a, const auto& b) mutable {        \
             return signed_distance<decltype(tier)>(a, b, proposal);                                   \
           },                                                                                          \
-          first, second);                                                                             \
+          one, other);                                                                                \
     } else {                                                                                          \
       return signed_distance<Tier>(first, second);                                                    \
     }                                                                                                 \
