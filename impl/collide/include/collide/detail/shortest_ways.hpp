@@ -22,6 +22,8 @@ using Vertices = unsigned;
 template <int most>
 constexpr Vertices all_vertices = (1u << most) - 1;
 constexpr Vertices both_ends = all_vertices<2>;
+/// The number of the last one of some vertices.
+constexpr int last_of(Vertices some) { return std::bit_width(some | 1u) - 1; }
 
 /// A point of the first core, and the way from there to a point of the second one. Each lies within the convex hull of
 /// some vertices, and not within that of fewer.

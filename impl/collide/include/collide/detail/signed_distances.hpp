@@ -389,8 +389,7 @@ Vec3<T> normal_at(const TriangleOnDemand<T>& triangle, int) {
 template <class Core>
 int direction_number(const Core&, Vertices ends) {
   if constexpr (Core::most_edges == 3) return ends == 3 ? 0 : ends == 6 ? 1 : 2;
-  if constexpr (Core::most_edges == 12)
-    return std::countr_zero(unsigned(std::countr_zero(ends) ^ (std::bit_width(ends) - 1)));
+  if constexpr (Core::most_edges == 12) return std::countr_zero(unsigned(std::countr_zero(ends) ^ last_of(ends)));
   return 0;
 }
 /// The direction of an edge; none of another feature.
@@ -564,7 +563,7 @@ auto apart_along_facet(const A& a, const B& b, const Proved& features)
     const T at = Tier::dot(beside_b, between);
     if constexpr (proves) {
       const Vec3<T> beside_a = Tier::cross(d, direction);
-      const Vec3<T>&end_a = vertex_of(a, std::bit_width(of) - 1), &end_b = vertex_of(b, std::bit_width(to) - 1);
+      const Vec3<T>&end_a = vertex_of(a, last_of(of)), &end_b = vertex_of(b, last_of(to));
       const auto is_between = [](const T& first, const T& second) {
         return first > T(0) ? second < T(0) : first < T(0) && second > T(0);
       };
@@ -581,7 +580,7 @@ auto apart_along_facet(const A& a, const B& b, const Proved& features)
 /// The way from a point or an edge, given by its ends, to a point.
 template <class Tier, class A, class T>
 WayBetween<T> way_from(const A& core, Vertices feature, const Vec3<T>& point) {
-  int first = std::countr_zero(feature), last = std::bit_width(feature) - 1;
+  int first = std::countr_zero(feature), last = last_of(feature);
   if constexpr (A::most_edges == 3) {
     if (first == 0 && last == 2) std::swap(first, last);  // that edge leads from the last vertex to the first one
   }
@@ -966,7 +965,7 @@ Vec3<T> normal_along(const WayBetween<T>& way, const Core<T, of_a>& a, const Cor
   if constexpr (of_a > 1 && of_b == 8) {
     if (std::popcount(way.from_of) == 2 && std::popcount(way.to_of) == 2) {
       const auto edge = [](const auto& core, Vertices ends) {
-        return unit_of<Tier>(core.vertices[std::bit_width(ends) - 1] - core.vertices[std::countr_zero(ends)]);
+        return unit_of<Tier>(core.vertices[last_of(ends)] - core.vertices[std::countr_zero(ends)]);
       };
       const Vec3<T> d = edge(a, way.from_of), e = edge(b, way.to_of), across = across_edges<Tier>(d, e);
       if (across == Vec3<T>{}) return normal;
