@@ -1116,15 +1116,19 @@ constexpr bool has_proposals = !MachineNumber<typename A::Number> && A::most_edg
 template <class A, class B>
 constexpr bool needs_proof = has_proposals<A, B> && (A::most_edges > 1 || B::most_edges > 1);
 
-/// The same shape; a box with a quaternion of moderate length.
+/// The same shape; a box with a quaternion of moderate length, unless a component of that would lose digits.
 template <class Shape>
 const Shape& with_moderate_rotation(const Shape& shape) {
   return shape;
 }
 template <class T>
 Box<T> with_moderate_rotation(const Box<T>& box) {
-  const auto [x, y, z, w] = rescaled(box.orientation);
-  return {box.center, box.half, {x, y, z, w}};
+  const auto& [x, y, z, w] = box.orientation;
+  const std::array<T, 4> given{x, y, z, w}, moderate = rescaled(box.orientation);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (given[i] != T(0) && !(detail::abs(moderate[i]) >= std::numeric_limits<T>::min())) return box;
+  }
+  return {box.center, box.half, {moderate[0], moderate[1], moderate[2], moderate[3]}};
 }
 
 /// The same shape in doubles.
