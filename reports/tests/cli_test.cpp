@@ -674,7 +674,7 @@ TEST(Nightly, RunsFuzzTargetsAndJudgesWhatTheyFind) {
   fs::permissions(target, fs::perms::owner_all);
   const std::string plugin = plugin_file("skim_plugin");
   const Ran ran =
-      nearmiss({"nightly", "--no-triage", "--minutes", is_sanitized ? "1" : "0.4", "--seed", "3", "--plugin", plugin,
+      nearmiss({"nightly", "--no-triage", "--minutes", is_sanitized ? "1.5" : "0.7", "--seed", "3", "--plugin", plugin,
                 "--fuzz-targets", (folder / "targets").string(), "--out", (folder / "r").string()});
   ASSERT_NE(ran.exit_code, 2) << ran.err;
   const json index = index_of(folder / "r");
