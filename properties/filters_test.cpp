@@ -122,6 +122,10 @@ constexpr std::string_view with_numbers[] = {
     "closest_point_rectangle_perimeter",
     "point_in_triangle",
     "point_in_rectangle",
+    "segment_triangle_overlap",
+    "capsule_triangle_overlap",
+    "triangle_triangle_overlap",
+    "triangle_box_overlap",
 };
 
 /// The same for those that start outside: a start in contact is left to the kernel.
@@ -153,9 +157,10 @@ TEST_P(FilterOfCertified, DecidesMostPlainScenes) {
 
 /// Queries whose filters lose digits as the decision comes close to its change.
 constexpr std::string_view with_cancellation[] = {
-    "point_in_rectangle",       "box_box_conservative",      "moving_point_sphere", "moving_sphere_sphere",
-    "moving_sphere_triangle",   "sphere_box_penetration",    "box_box_penetration", "box_plane_penetration",
-    "sphere_plane_penetration", "sphere_sphere_penetration",
+    "point_in_rectangle",        "box_box_conservative",      "moving_point_sphere",      "moving_sphere_sphere",
+    "moving_sphere_triangle",    "sphere_box_penetration",    "box_box_penetration",      "box_plane_penetration",
+    "sphere_plane_penetration",  "sphere_sphere_penetration", "segment_triangle_overlap", "capsule_triangle_overlap",
+    "triangle_triangle_overlap",
 };
 
 TEST_P(FilterOfCertified, IsRightAsTheDecisionChanges) {

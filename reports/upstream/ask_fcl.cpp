@@ -157,7 +157,7 @@ Asking ask_fcl(const Case& question, const Subject& subject) {
     const bool is_depth = question.query->kind == Kind::depth;
     asking.statements += call(distance, a, b, by);
     asking.statements += is_depth ? depth_of_distance : distance_itself;
-    if (is_a<Box>(a) && is_a<Box>(b)) asking.statements += distance_of_boxes;
+    if (is_depth && is_a<Box>(a) && is_a<Box>(b)) asking.statements += distance_of_boxes;
     asking.members = {is_depth ? "depth" : "distance"};
   } else if (is_a<Triangle>(a)) {
     asking.statements += call(is_a<HalfSpace>(b) ? triangle_and_plane : triangle, b, a, by);

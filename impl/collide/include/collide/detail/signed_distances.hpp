@@ -216,13 +216,14 @@ T largest(const Vec3<T>& v) {
   return larger(larger(abs(v.x), abs(v.y)), abs(v.z));
 }
 
-/// The distinct vertices of a core that may be furthest along a unit direction. Those of a large box have large errors:
-/// of a box, by the edges that are not nearly perpendicular to the direction.
+/// The distinct vertices of a core that may be furthest along a unit direction: also those whose number overflows, so
+/// never none. Those of a large box have large errors: of a box, by the edges that are not nearly perpendicular to the
+/// direction.
 template <int most>
 Vertices furthest_vertices(const Core<double, most>& core, const Vec3<double>& direction, double rounding) {
   const double level = projected<Plain>(core, direction).most - 2 * rounding;
   Vertices furthest = 0;
-  for (int i = 0; i < most; ++i) furthest |= Vertices(Plain::dot(direction, core.vertices[i]) >= level) << i;
+  for (int i = 0; i < most; ++i) furthest |= Vertices(!(Plain::dot(direction, core.vertices[i]) < level)) << i;
   return furthest;
 }
 inline Vertices furthest_vertices(const CoreOfBox<double>& box, const Vec3<double>& direction, double rounding) {

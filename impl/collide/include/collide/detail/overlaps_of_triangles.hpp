@@ -1,0 +1,207 @@
+/// The kernels of the overlap of a triangle with a segment, a capsule and a triangle: those of every two rounded
+/// polytopes (detail/overlaps.hpp), and filters of Certified that decide most cases in doubles.
+///
+/// In the derivations u = 2^-53, and |x| is the sum of the magnitudes of the coordinates of x. A sum, a difference and
+/// a product have an error of 1 u of themselves.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <collide/detail/overlaps.hpp>
+#include <collide/detail/overlaps_of_axes.hpp>
+
+#include <collide/detail/strict_begin.hpp>
+
+namespace collide {
+
+namespace detail {
+
+/// The sign of a number that has an error of at most `error`: -1 or 1, or 0 if it is in doubt.
+constexpr int sign_beyond(double number, double error) { return int(number > error) - int(number < -error); }
+
+/// The plane through three points, for numbers of which no product underflows by more than 2^-600: the number of it
+/// that an edge or a coordinate has is at most 2^200.
+///
+/// The differences have an error of 1 u. So each product of two of them has one of 3 u, and a number of the normal one
+/// of 4 u of the sum of the magnitudes of its two products (`terms`). The product with another difference has an error
+/// of 8 u of the product of `terms` with that difference's magnitudes: half of the bound.
+class PlaneOfPoints {
+ public:
+  PlaneOfPoints(const Vec3<double>& first, const Vec3<double>& second, const Vec3<double>& third) : at_(first) {
+    const Vec3<double> a = second - first, b = third - first;
+    const double yz = a.y * b.z, zy = a.z * b.y, zx = a.z * b.x, xz = a.x * b.z, xy = a.x * b.y, yx = a.y * b.x;
+    normal_ = {yz - zy, zx - xz, xy - yx};
+    terms_ = {abs(yz) + abs(zy), abs(zx) + abs(xz), abs(xy) + abs(yx)};
+  }
+  /// The side of the plane on which a point is, or 0 if it is in doubt. Seen from side 1, the points are
+  /// counterclockwise.
+  int side_of(const Vec3<double>& point) const {
+    const Vec3<double> to = point - at_, size{abs(to.x), abs(to.y), abs(to.z)};
+    return sign_beyond(Plain::dot(normal_, to), 0x1p-49 * Plain::dot(terms_, size) + 0x1p-600);
+  }
+
+ private:
+  Vec3<double> at_, normal_, terms_;
+};
+
+inline std::array<Vec3<double>, 3> corners_in_double(const auto& triangle) {
+  return {in_double(triangle.v0), in_double(triangle.v1), in_double(triangle.v2)};
+}
+/// Whether the magnitudes of all coordinates are at most 2^199.
+template <std::size_t n>
+bool are_moderate(const std::array<Vec3<double>, n>& points) {
+  double largest = 0;
+  for (const Vec3<double>& p : points) largest = larger(largest, larger(larger(abs(p.x), abs(p.y)), abs(p.z)));
+  return largest <= 0x1p199;
+}
+
+/// Filter: whether segment and triangle meet; nullopt if a vertex is nearly in a plane.
+///
+/// A segment between both sides of the triangle's plane meets the triangle exactly if its line passes all three edges
+/// on the same side. On different sides of two edges, the line misses the triangle, wherever the ends are.
+template <class T>
+std::optional<bool> filtered_overlap(const Segment<T>& segment, const Triangle<T>& triangle) {
+  const auto [a, b, c] = corners_in_double(triangle);
+  const Vec3<double> start = in_double(segment.v0), end = in_double(segment.v1);
+  if (!are_moderate(std::array{a, b, c, start, end})) return std::nullopt;
+  const PlaneOfPoints plane(a, b, c);
+  const int first = plane.side_of(start), last = plane.side_of(end);
+  if (first * last > 0) return false;
+  const std::array<int, 3> beside{PlaneOfPoints(start, end, a).side_of(b), PlaneOfPoints(start, end, b).side_of(c),
+                                  PlaneOfPoints(start, end, c).side_of(a)};
+  const bool before = beside[0] < 0 || beside[1] < 0 || beside[2] < 0;
+  const bool behind = beside[0] > 0 || beside[1] > 0 || beside[2] > 0;
+  if (before && behind) return false;
+  if (first * last < 0 && beside[0] * beside[1] * beside[2] != 0) return true;
+  return std::nullopt;
+}
+
+/// The number of the point that is alone on its side, where none is in doubt; -1 if all are on one side, -2 in doubt.
+constexpr int alone_on_its_side(const std::array<int, 3>& sides) {
+  const int sum = sides[0] + sides[1] + sides[2];
+  if (sum == 3 || sum == -3) return -1;
+  if (sides[0] * sides[1] * sides[2] == 0) return -2;
+  return sides[0] == -sum ? 0 : sides[1] == -sum ? 1 : 2;
+}
+
+/// Filter: whether two triangles meet; nullopt if a vertex is nearly in the plane of the other triangle, or two edges
+/// nearly meet.
+///
+/// Two triangles that each have vertices on both sides of the other one's plane meet the line of both planes in an
+/// interval each. The edges that end in the vertex that is alone on its side bound it. Which bound comes first is the
+/// orientation of four vertices.
+/// Source: Guigue, Devillers, Fast and Robust Triangle-Triangle Overlap Test Using Orientation Predicates, Journal of
+/// Graphics Tools 8, 2003.
+template <class T>
+std::optional<bool> filtered_overlap(const Triangle<T>& triangle1, const Triangle<T>& triangle2) {
+  const std::array<Vec3<double>, 3> a = corners_in_double(triangle1), b = corners_in_double(triangle2);
+  if (!are_moderate(std::array{a[0], a[1], a[2], b[0], b[1], b[2]})) return std::nullopt;
+  const PlaneOfPoints plane_of_b(b[0], b[1], b[2]);
+  const std::array<int, 3> of_a{plane_of_b.side_of(a[0]), plane_of_b.side_of(a[1]), plane_of_b.side_of(a[2])};
+  const int alone_of_a = alone_on_its_side(of_a);
+  if (alone_of_a == -1) return false;
+  const PlaneOfPoints plane_of_a(a[0], a[1], a[2]);
+  const std::array<int, 3> of_b{plane_of_a.side_of(b[0]), plane_of_a.side_of(b[1]), plane_of_a.side_of(b[2])};
+  const int alone_of_b = alone_on_its_side(of_b);
+  if (alone_of_b == -1) return false;
+  if (alone_of_a < 0 || alone_of_b < 0) return std::nullopt;
+  // The vertices from the one that is alone on, counterclockwise seen from where the other triangle's is alone.
+  const int on_a = of_b[alone_of_b] > 0 ? 1 : 2, on_b = of_a[alone_of_a] > 0 ? 1 : 2;
+  const Vec3<double>&p = a[alone_of_a], &q = a[(alone_of_a + on_a) % 3], &r = a[(alone_of_a + 2 * on_a) % 3];
+  const Vec3<double>&s = b[alone_of_b], &t = b[(alone_of_b + on_b) % 3], &w = b[(alone_of_b + 2 * on_b) % 3];
+  const int first = PlaneOfPoints(p, q, s).side_of(t), last = PlaneOfPoints(p, r, w).side_of(s);
+  if (first > 0 || last > 0) return false;
+  if (first < 0 && last < 0) return true;
+  return std::nullopt;
+}
+
+/// The shortest of the ways from points of an axis to points of a triangle that are considered one after the other, in
+/// doubles, relative to the axis's start.
+///
+/// Each computed parameter is that of a point of the axis, and each two weights are those of a point of the triangle,
+/// whatever their errors. So a way has an error as in filtered_overlap of two axes: at most 16 u S.
+class WayToTriangle {
+ public:
+  WayToTriangle(const Axis<double>& axis, const std::array<Vec3<double>, 3>& corners)
+      : axis_(axis), v0_(corners[0]), edge1_(corners[1] - v0_), edge2_(corners[2] - v0_) {
+    normal_ = Plain::cross(edge1_, edge2_);
+    inverse2_ = inverse_or_zero(Plain::dot(normal_, normal_));
+    consider_face_from(0);
+    consider_face_from(axis.end);
+    const double start = -Plain::dot(normal_, v0_), along = Plain::dot(normal_, axis.direction);
+    if (start * (start + along * axis.end) < 0) consider_face_from(parameter_within(-start / along, axis.end));
+    for (int i = 0; i < 3; ++i) {
+      const Axis<double> edge(corners[i], corners[(i + 1) % 3], Vec3<double>{});
+      const NearestParameters<double> nearest = nearest_parameters<Plain>(axis, edge);
+      consider(edge.at(nearest.second) - axis.at(nearest.first));
+    }
+  }
+  const Vec3<double>& way() const { return way_; }
+  double length2() const { return length2_; }
+
+ private:
+  void consider_face_from(double parameter) {
+    const Vec3<double> point = axis_.at(parameter), from = point - v0_;
+    const double weight1 = Plain::dot(Plain::cross(from, edge2_), normal_) * inverse2_;
+    const double weight2 = Plain::dot(Plain::cross(edge1_, from), normal_) * inverse2_, rest = 1 - weight1;
+    if (weight1 >= 0 && weight2 >= 0 && weight2 <= rest) consider(v0_ + edge1_ * weight1 + edge2_ * weight2 - point);
+  }
+  void consider(const Vec3<double>& way) {
+    const double length2 = Plain::dot(way, way);
+    if (length2 < length2_) way_ = way, length2_ = length2;
+  }
+
+  const Axis<double>& axis_;
+  Vec3<double> v0_, edge1_, edge2_, normal_, way_;
+  double inverse2_, length2_ = std::numeric_limits<double>::infinity();
+};
+
+/// Filter: whether capsule and triangle meet; nullopt if rounding may change the decision. Errors are those of
+/// filtered_overlap of two axes; the sum S has the capsule's end and the three corners, relative to its start.
+template <class T>
+std::optional<bool> filtered_overlap(const Capsule<T>& capsule, const Triangle<T>& triangle) {
+  const Vec3<double> start = in_double(capsule.p0), end = in_double(capsule.p1) - start;
+  std::array<Vec3<double>, 3> corners = corners_in_double(triangle);
+  double s = extent_of(end);
+  for (Vec3<double>& corner : corners) corner = corner - start, s = s + extent_of(corner);
+  const double radius = capsule.radius, error = 0x1p-48 * s, slack = 0x1p-49 * radius;
+  if (!(s >= 0x1p-200 && s <= 0x1p200 && radius <= 0x1p200)) return std::nullopt;
+  const Axis<double> axis(Vec3<double>{}, end, Vec3<double>{});
+  const WayToTriangle shortest(axis, corners);
+  const double sure = radius - slack - error, length2 = shortest.length2();
+  if (sure >= 0x1p-300 && length2 <= sure * sure) return true;
+  const Vec3<double>& way = shortest.way();
+  const double least =
+      smaller(smaller(Plain::dot(way, corners[0]), Plain::dot(way, corners[1])), Plain::dot(way, corners[2]));
+  const double gap = least - larger(0.0, Plain::dot(way, end));
+  if (length2 >= 0x1p-600 && gap > sqrt(length2) * (radius + slack + error)) return false;
+  return std::nullopt;
+}
+
+}  // namespace detail
+}  // namespace collide
+
+// NOLINTBEGIN(bugprone-macro-parentheses): a type and a name that is declared have none
+
+/// Defines the function `name` of one of these shapes and a triangle, its contract and its kernel.
+#define COLLIDE_OVERLAP_WITH_TRIANGLE(name, First, first, Second, second)   \
+  namespace kernels {                                                       \
+  template <class Tier, class T>                                            \
+  inline Decision<T> name(const First<T>& first, const Second<T>& second) { \
+    if constexpr (uses_filter<Tier, T>) {                                   \
+      if (const auto decided = detail::filtered_overlap(first, second))     \
+        return Tier::decided_by_filter(Decision<T>{*decided});              \
+    }                                                                       \
+    if constexpr (Tier::template lifts<T>) {                                \
+      return COLLIDE_LIFTED(name, first, second);                           \
+    } else {                                                                \
+      return overlap<Tier>(first, second);                                  \
+    }                                                                       \
+  }                                                                         \
+  }                                                                         \
+  COLLIDE_OVERLAP_FUNCTION(name, First, first, Second, second)
+
+// NOLINTEND(bugprone-macro-parentheses)
+
+#include <collide/detail/strict_end.hpp>
