@@ -24,7 +24,7 @@ std::vector<Features> features_of(const Case& c) {
 
 constexpr double at_most = 1e-5;  // for float; the scenes have sizes near 1
 
-/// A plane has one vertex, and no edge that another shape could be parallel to: its normal is.
+/// A plane has one vertex.
 bool is_plane(const Features& f) { return f.vertices.size() == 1 && !f.normals.empty(); }
 
 /// The sine of the angle between two vectors; 1 where one is zero.
@@ -32,22 +32,27 @@ double sine(const Numbers& a, const Numbers& b) {
   const double lengths = norm(a) * norm(b);
   return lengths == 0 ? 1 : norm(cross(a, b)) / lengths;
 }
+/// The same between a vector and the plane with a normal.
+double sine_to_plane(const Numbers& a, const Numbers& normal) {
+  const double lengths = norm(a) * norm(normal);
+  return lengths == 0 ? 1 : std::abs(dot(a, normal)) / lengths;
+}
 
+/// An edge is parallel to a plane if it is parallel to any edge that the plane could have. No two shapes are planes.
 bool have_parallel_edges(const Features& a, const Features& b, double up_to) {
+  if (is_plane(a)) return have_parallel_edges(b, a, up_to);
   const auto directions = [](const Features& f) {
-    if (is_plane(f)) return f.normals;
     std::vector<Numbers> all;
     for (const auto& e : f.edges) {
       for (const auto& other : f.edges) all.push_back(&e == &other ? e.along : plus(e.along, other.along));
     }
     return all;
   };
-  for (const Numbers& first : directions(a)) {
-    for (const Numbers& second : directions(b)) {
-      if (sine(first, second) <= up_to) return true;
-    }
-  }
-  return false;
+  const std::vector<Numbers> of_b = directions(b);
+  return std::ranges::any_of(directions(a), [&](const Numbers& first) {
+    if (is_plane(b)) return sine_to_plane(first, b.normals[0]) <= up_to;
+    return std::ranges::any_of(of_b, [&](const Numbers& second) { return sine(first, second) <= up_to; });
+  });
 }
 
 /// Whether the vertices of b lie in a plane through an edge of a; for two solids, whether two of their faces share one.

@@ -1,15 +1,20 @@
 /// The kernels of the overlap of a triangle with a segment, a capsule and a triangle: those of every two rounded
-/// polytopes (detail/overlaps.hpp), and filters of Certified that decide most cases in doubles.
+/// polytopes (detail/overlaps.hpp), and filters of Fast and Certified that decide most cases in doubles.
 ///
 /// In the derivations u = 2^-53, and |x| is the sum of the magnitudes of the coordinates of x. A sum, a difference and
 /// a product have an error of 1 u of themselves.
 #pragma once
 
 #include <array>
+#include <concepts>
+#include <cstddef>
+#include <limits>
 #include <optional>
 
+#include <collide/detail/double_word.hpp>
 #include <collide/detail/overlaps.hpp>
 #include <collide/detail/overlaps_of_axes.hpp>
+#include <collide/detail/wide_filters.hpp>
 
 #include <collide/detail/strict_begin.hpp>
 
@@ -17,32 +22,57 @@ namespace collide {
 
 namespace detail {
 
+/// True if the tier tries these filters before it calls the kernel, which takes several times as long.
+template <class Tier, class T>
+inline constexpr bool tries_in_doubles =
+    uses_filter<Tier, T> || (std::same_as<Tier, Fast> && (std::same_as<T, float> || std::same_as<T, double>));
+
 /// The sign of a number that has an error of at most `error`: -1 or 1, or 0 if it is in doubt.
 constexpr int sign_beyond(double number, double error) { return int(number > error) - int(number < -error); }
 
-/// The plane through three points, for numbers of which no product underflows by more than 2^-600: the number of it
-/// that an edge or a coordinate has is at most 2^200.
+/// The plane through three points whose coordinates are at most 2^199, in numbers of W: double, or double-words where
+/// the sign is in doubt. The points must live as long.
 ///
-/// The differences have an error of 1 u. So each product of two of them has one of 3 u, and a number of the normal one
-/// of 4 u of the sum of the magnitudes of its two products (`terms`). The product with another difference has an error
-/// of 8 u of the product of `terms` with that difference's magnitudes: half of the bound.
+/// Here u is the error of an operation in W. The differences have an error of 1 u, double-words none. So each product
+/// of two of them has one of 3 u, and a number of the normal one of 4 u of the magnitudes of its two products, whose
+/// sum is `terms`. The product with another difference has an error of 8 u of the product of `terms` with that
+/// difference's magnitudes: half of the bound. What products lose by underflow is far below 2^-600.
+template <class W>
 class PlaneOfPoints {
  public:
-  PlaneOfPoints(const Vec3<double>& first, const Vec3<double>& second, const Vec3<double>& third) : at_(first) {
-    const Vec3<double> a = second - first, b = third - first;
-    const double yz = a.y * b.z, zy = a.z * b.y, zx = a.z * b.x, xz = a.x * b.z, xy = a.x * b.y, yx = a.y * b.x;
+  PlaneOfPoints(const Vec3<double>& first, const Vec3<double>& second, const Vec3<double>& third)
+      : first_(first), second_(second), third_(third) {
+    const Vec3<W> a = difference(second, first), b = difference(third, first);
+    const W yz = a.y * b.z, zy = a.z * b.y, zx = a.z * b.x, xz = a.x * b.z, xy = a.x * b.y, yx = a.y * b.x;
     normal_ = {yz - zy, zx - xz, xy - yx};
-    terms_ = {abs(yz) + abs(zy), abs(zx) + abs(xz), abs(xy) + abs(yx)};
+    terms_ = {size(yz) + size(zy), size(zx) + size(xz), size(xy) + size(yx)};
   }
   /// The side of the plane on which a point is, or 0 if it is in doubt. Seen from side 1, the points are
   /// counterclockwise.
   int side_of(const Vec3<double>& point) const {
-    const Vec3<double> to = point - at_, size{abs(to.x), abs(to.y), abs(to.z)};
-    return sign_beyond(Plain::dot(normal_, to), 0x1p-49 * Plain::dot(terms_, size) + 0x1p-600);
+    const Vec3<W> to = difference(point, first_);
+    const Vec3<double> sizes{size(to.x), size(to.y), size(to.z)};
+    const int side = sign_beyond(leading_part(Plain::dot(normal_, to)), 16 * u * Plain::dot(terms_, sizes) + 0x1p-600);
+    if constexpr (std::same_as<W, double>) {
+      if (side == 0) return side_in_double_words(point);
+    }
+    return side;
   }
 
  private:
-  Vec3<double> at_, normal_, terms_;
+  static constexpr double u = std::same_as<W, double> ? 0x1p-53 : DoubleWord<double>::epsilon;
+
+  static Vec3<W> difference(const Vec3<double>& to, const Vec3<double>& from) {
+    return {W(to.x) - W(from.x), W(to.y) - W(from.y), W(to.z) - W(from.z)};
+  }
+  static double size(const W& x) { return abs(leading_part(x)); }
+  [[gnu::noinline]] int side_in_double_words(const Vec3<double>& point) const {
+    return PlaneOfPoints<DoubleWord<double>>(first_, second_, third_).side_of(point);
+  }
+
+  const Vec3<double>&first_, &second_, &third_;
+  Vec3<W> normal_;
+  Vec3<double> terms_;
 };
 
 inline std::array<Vec3<double>, 3> corners_in_double(const auto& triangle) {
@@ -55,21 +85,34 @@ bool are_moderate(const std::array<Vec3<double>, n>& points) {
   for (const Vec3<double>& p : points) largest = larger(largest, larger(larger(abs(p.x), abs(p.y)), abs(p.z)));
   return largest <= 0x1p199;
 }
+template <std::size_t n, std::size_t m>
+bool have_equal_points(const std::array<Vec3<double>, n>& a, const std::array<Vec3<double>, m>& b) {
+  bool equal = false;
+  for (const Vec3<double>& p : a) {
+    for (const Vec3<double>& q : b) equal = equal || p == q;
+  }
+  return equal;
+}
 
-/// Filter: whether segment and triangle meet; nullopt if a vertex is nearly in a plane.
+/// Filter: whether segment and triangle meet; nullopt where an end is in the triangle's plane, or the segment meets the
+/// line of an edge, unless an end is a corner.
 ///
 /// A segment between both sides of the triangle's plane meets the triangle exactly if its line passes all three edges
 /// on the same side. On different sides of two edges, the line misses the triangle, wherever the ends are.
 template <class T>
 std::optional<bool> filtered_overlap(const Segment<T>& segment, const Triangle<T>& triangle) {
-  const auto [a, b, c] = corners_in_double(triangle);
-  const Vec3<double> start = in_double(segment.v0), end = in_double(segment.v1);
+  using Plane = PlaneOfPoints<double>;
+  const std::array<Vec3<double>, 3> corner = corners_in_double(triangle);
+  const auto& [a, b, c] = corner;
+  const std::array<Vec3<double>, 2> ends{in_double(segment.v0), in_double(segment.v1)};
+  const auto& [start, end] = ends;
   if (!are_moderate(std::array{a, b, c, start, end})) return std::nullopt;
-  const PlaneOfPoints plane(a, b, c);
+  const Plane plane(a, b, c);
   const int first = plane.side_of(start), last = plane.side_of(end);
   if (first * last > 0) return false;
-  const std::array<int, 3> beside{PlaneOfPoints(start, end, a).side_of(b), PlaneOfPoints(start, end, b).side_of(c),
-                                  PlaneOfPoints(start, end, c).side_of(a)};
+  if (first * last == 0 && have_equal_points(ends, corner)) return true;
+  const std::array<int, 3> beside{Plane(start, end, a).side_of(b), Plane(start, end, b).side_of(c),
+                                  Plane(start, end, c).side_of(a)};
   const bool before = beside[0] < 0 || beside[1] < 0 || beside[2] < 0;
   const bool behind = beside[0] > 0 || beside[1] > 0 || beside[2] > 0;
   if (before && behind) return false;
@@ -85,8 +128,8 @@ constexpr int alone_on_its_side(const std::array<int, 3>& sides) {
   return sides[0] == -sum ? 0 : sides[1] == -sum ? 1 : 2;
 }
 
-/// Filter: whether two triangles meet; nullopt if a vertex is nearly in the plane of the other triangle, or two edges
-/// nearly meet.
+/// Filter: whether two triangles meet; nullopt where a vertex is in the plane of the other triangle, or the lines of
+/// two edges meet, unless the triangles share a vertex.
 ///
 /// Two triangles that each have vertices on both sides of the other one's plane meet the line of both planes in an
 /// interval each. The edges that end in the vertex that is alone on its side bound it. Which bound comes first is the
@@ -97,20 +140,21 @@ template <class T>
 std::optional<bool> filtered_overlap(const Triangle<T>& triangle1, const Triangle<T>& triangle2) {
   const std::array<Vec3<double>, 3> a = corners_in_double(triangle1), b = corners_in_double(triangle2);
   if (!are_moderate(std::array{a[0], a[1], a[2], b[0], b[1], b[2]})) return std::nullopt;
-  const PlaneOfPoints plane_of_b(b[0], b[1], b[2]);
+  using Plane = PlaneOfPoints<double>;
+  const Plane plane_of_b(b[0], b[1], b[2]);
   const std::array<int, 3> of_a{plane_of_b.side_of(a[0]), plane_of_b.side_of(a[1]), plane_of_b.side_of(a[2])};
   const int alone_of_a = alone_on_its_side(of_a);
   if (alone_of_a == -1) return false;
-  const PlaneOfPoints plane_of_a(a[0], a[1], a[2]);
+  const Plane plane_of_a(a[0], a[1], a[2]);
   const std::array<int, 3> of_b{plane_of_a.side_of(b[0]), plane_of_a.side_of(b[1]), plane_of_a.side_of(b[2])};
   const int alone_of_b = alone_on_its_side(of_b);
   if (alone_of_b == -1) return false;
-  if (alone_of_a < 0 || alone_of_b < 0) return std::nullopt;
+  if (alone_of_a < 0 || alone_of_b < 0) return have_equal_points(a, b) ? std::optional(true) : std::nullopt;
   // The vertices from the one that is alone on, counterclockwise seen from where the other triangle's is alone.
   const int on_a = of_b[alone_of_b] > 0 ? 1 : 2, on_b = of_a[alone_of_a] > 0 ? 1 : 2;
   const Vec3<double>&p = a[alone_of_a], &q = a[(alone_of_a + on_a) % 3], &r = a[(alone_of_a + 2 * on_a) % 3];
   const Vec3<double>&s = b[alone_of_b], &t = b[(alone_of_b + on_b) % 3], &w = b[(alone_of_b + 2 * on_b) % 3];
-  const int first = PlaneOfPoints(p, q, s).side_of(t), last = PlaneOfPoints(p, r, w).side_of(s);
+  const int first = Plane(p, q, s).side_of(t), last = Plane(p, r, w).side_of(s);
   if (first > 0 || last > 0) return false;
   if (first < 0 && last < 0) return true;
   return std::nullopt;
@@ -161,6 +205,7 @@ class WayToTriangle {
 /// filtered_overlap of two axes; the sum S has the capsule's end and the three corners, relative to its start.
 template <class T>
 std::optional<bool> filtered_overlap(const Capsule<T>& capsule, const Triangle<T>& triangle) {
+  if (capsule.radius == T(0)) return filtered_overlap(Segment<T>{capsule.p0, capsule.p1}, triangle);
   const Vec3<double> start = in_double(capsule.p0), end = in_double(capsule.p1) - start;
   std::array<Vec3<double>, 3> corners = corners_in_double(triangle);
   double s = extent_of(end);
@@ -185,21 +230,23 @@ std::optional<bool> filtered_overlap(const Capsule<T>& capsule, const Triangle<T
 // NOLINTBEGIN(bugprone-macro-parentheses): a type and a name that is declared have none
 
 /// Defines the function `name` of one of these shapes and a triangle, its contract and its kernel.
-#define COLLIDE_OVERLAP_WITH_TRIANGLE(name, First, first, Second, second)   \
-  namespace kernels {                                                       \
-  template <class Tier, class T>                                            \
-  inline Decision<T> name(const First<T>& first, const Second<T>& second) { \
-    if constexpr (uses_filter<Tier, T>) {                                   \
-      if (const auto decided = detail::filtered_overlap(first, second))     \
-        return Tier::decided_by_filter(Decision<T>{*decided});              \
-    }                                                                       \
-    if constexpr (Tier::template lifts<T>) {                                \
-      return COLLIDE_LIFTED(name, first, second);                           \
-    } else {                                                                \
-      return overlap<Tier>(first, second);                                  \
-    }                                                                       \
-  }                                                                         \
-  }                                                                         \
+#define COLLIDE_OVERLAP_WITH_TRIANGLE(name, First, first, Second, second)                          \
+  namespace kernels {                                                                              \
+  template <class Tier, class T>                                                                   \
+  inline Decision<T> name(const First<T>& first, const Second<T>& second) {                        \
+    if constexpr (detail::tries_in_doubles<Tier, T>) {                                             \
+      if (const auto decided = detail::filtered_overlap(first, second)) {                          \
+        if constexpr (uses_filter<Tier, T>) return Tier::decided_by_filter(Decision<T>{*decided}); \
+        return {*decided};                                                                         \
+      }                                                                                            \
+    }                                                                                              \
+    if constexpr (Tier::template lifts<T>) {                                                       \
+      return COLLIDE_LIFTED(name, first, second);                                                  \
+    } else {                                                                                       \
+      return overlap<Tier>(first, second);                                                         \
+    }                                                                                              \
+  }                                                                                                \
+  }                                                                                                \
   COLLIDE_OVERLAP_FUNCTION(name, First, first, Second, second)
 
 // NOLINTEND(bugprone-macro-parentheses)
