@@ -171,7 +171,7 @@ const Placed placed[] = {
     {"other_place",
      "triangle_halfspace_signed_distance",
      raised_triangle + floor_plane,
-     {5, 0, 0, -1, 1, 1, 5, 3, 0, 0},
+     {5, 0, 0, -1, 1, 1, 5, 5, 0, 0},
      true},
     {"outside",
      "triangle_halfspace_signed_distance",

@@ -9,6 +9,8 @@
 
 #include "impl/adapters/collide_function.hpp"
 #include "nearmiss/collide_functions/box_box_conservative.hpp"
+#include "nearmiss/collide_functions/capsule_capsule_overlap.hpp"
+#include "nearmiss/collide_functions/capsule_capsule_signed_distance.hpp"
 #include "nearmiss/collide_functions/closest_point_segment.hpp"
 #include "nearmiss/collide_functions/closest_points_lines.hpp"
 #include "nearmiss/collide_functions/moving_point_aabox.hpp"
@@ -18,18 +20,38 @@
 #include "nearmiss/collide_functions/moving_sphere_passes_sphere.hpp"
 #include "nearmiss/collide_functions/moving_sphere_plane.hpp"
 #include "nearmiss/collide_functions/moving_sphere_sphere.hpp"
+#include "nearmiss/collide_functions/point_capsule_overlap.hpp"
+#include "nearmiss/collide_functions/point_capsule_signed_distance.hpp"
+#include "nearmiss/collide_functions/point_segment_signed_distance.hpp"
+#include "nearmiss/collide_functions/point_sphere_overlap.hpp"
+#include "nearmiss/collide_functions/point_sphere_signed_distance.hpp"
 #include "nearmiss/collide_functions/ray_aabox.hpp"
+#include "nearmiss/collide_functions/segment_capsule_overlap.hpp"
+#include "nearmiss/collide_functions/segment_capsule_signed_distance.hpp"
+#include "nearmiss/collide_functions/segment_segment_signed_distance.hpp"
 #include "nearmiss/collide_functions/sphere_box_overlap.hpp"
+#include "nearmiss/collide_functions/sphere_capsule_overlap.hpp"
+#include "nearmiss/collide_functions/sphere_capsule_signed_distance.hpp"
 #include "nearmiss/collide_functions/sphere_plane_penetration.hpp"
+#include "nearmiss/collide_functions/sphere_segment_overlap.hpp"
+#include "nearmiss/collide_functions/sphere_segment_signed_distance.hpp"
 #include "nearmiss/collide_functions/sphere_sphere_overlap.hpp"
 #include "nearmiss/collide_functions/sphere_sphere_penetration.hpp"
+#include "nearmiss/collide_functions/sphere_sphere_signed_distance.hpp"
+#include "nearmiss/collide_functions/sphere_triangle_overlap.hpp"
 
 /// Calls f(query) for each query with a batch form.
-#define NEARMISS_BATCH_QUERIES(f)                                                                                      \
-  f(box_box_conservative) f(closest_point_segment) f(closest_points_lines) f(moving_point_aabox) f(moving_point_plane) \
-      f(moving_point_sphere) f(moving_point_triangle) f(moving_sphere_passes_sphere) f(moving_sphere_plane)            \
-          f(moving_sphere_sphere) f(ray_aabox) f(sphere_box_overlap) f(sphere_plane_penetration)                       \
-              f(sphere_sphere_overlap) f(sphere_sphere_penetration)
+#define NEARMISS_BATCH_QUERIES(f)                                                                                  \
+  f(box_box_conservative) f(capsule_capsule_overlap) f(capsule_capsule_signed_distance) f(closest_point_segment)   \
+      f(closest_points_lines) f(moving_point_aabox) f(moving_point_plane) f(moving_point_sphere)                   \
+          f(moving_point_triangle) f(moving_sphere_passes_sphere) f(moving_sphere_plane) f(moving_sphere_sphere)   \
+              f(point_capsule_overlap) f(point_capsule_signed_distance) f(point_segment_signed_distance)           \
+                  f(point_sphere_overlap) f(point_sphere_signed_distance) f(ray_aabox) f(segment_capsule_overlap)  \
+                      f(segment_capsule_signed_distance) f(segment_segment_signed_distance) f(sphere_box_overlap)  \
+                          f(sphere_capsule_overlap) f(sphere_capsule_signed_distance) f(sphere_plane_penetration)  \
+                              f(sphere_segment_overlap) f(sphere_segment_signed_distance) f(sphere_sphere_overlap) \
+                                  f(sphere_sphere_penetration) f(sphere_sphere_signed_distance)                    \
+                                      f(sphere_triangle_overlap)
 
 namespace nearmiss::adapters {
 

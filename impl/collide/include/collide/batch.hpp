@@ -69,6 +69,41 @@ void sphere_box_overlap(SoaView<Sphere<T>> sphere, SoaView<Box<T>> box, SoaSpan<
   detail::answer_batch<detail::batched::sphere_box_overlap, T>(simd, answers, sphere, box);
 }
 template <class T>
+void point_sphere_overlap(SoaView<Vec3<T>> point, SoaView<Sphere<T>> sphere, SoaSpan<Decision<T>> answers,
+                          Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::point_sphere_overlap, T>(simd, answers, point, sphere);
+}
+template <class T>
+void point_capsule_overlap(SoaView<Vec3<T>> point, SoaView<Capsule<T>> capsule, SoaSpan<Decision<T>> answers,
+                           Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::point_capsule_overlap, T>(simd, answers, point, capsule);
+}
+template <class T>
+void sphere_segment_overlap(SoaView<Sphere<T>> sphere, SoaView<Segment<T>> segment, SoaSpan<Decision<T>> answers,
+                            Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::sphere_segment_overlap, T>(simd, answers, sphere, segment);
+}
+template <class T>
+void sphere_capsule_overlap(SoaView<Sphere<T>> sphere, SoaView<Capsule<T>> capsule, SoaSpan<Decision<T>> answers,
+                            Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::sphere_capsule_overlap, T>(simd, answers, sphere, capsule);
+}
+template <class T>
+void sphere_triangle_overlap(SoaView<Sphere<T>> sphere, SoaView<Triangle<T>> triangle, SoaSpan<Decision<T>> answers,
+                             Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::sphere_triangle_overlap, T>(simd, answers, sphere, triangle);
+}
+template <class T>
+void segment_capsule_overlap(SoaView<Segment<T>> segment, SoaView<Capsule<T>> capsule, SoaSpan<Decision<T>> answers,
+                             Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::segment_capsule_overlap, T>(simd, answers, segment, capsule);
+}
+template <class T>
+void capsule_capsule_overlap(SoaView<Capsule<T>> capsule1, SoaView<Capsule<T>> capsule2, SoaSpan<Decision<T>> answers,
+                             Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::capsule_capsule_overlap, T>(simd, answers, capsule1, capsule2);
+}
+template <class T>
 void box_box_conservative(SoaView<Box<T>> box1, SoaView<Box<T>> box2, SoaSpan<Decision<T>> answers,
                           Simd simd = widest_simd()) {
   detail::answer_batch<detail::batched::box_box_conservative, T>(simd, answers, box1, box2);
@@ -122,6 +157,51 @@ template <class T>
 void closest_points_lines(SoaView<Line<T>> line1, SoaView<Line<T>> line2, SoaSpan<ClosestPoints<T>> answers,
                           Simd simd = widest_simd()) {
   detail::answer_batch<detail::batched::closest_points_lines, T>(simd, answers, line1, line2);
+}
+template <class T>
+void point_sphere_signed_distance(SoaView<Vec3<T>> point, SoaView<Sphere<T>> sphere, SoaSpan<SignedDistance<T>> answers,
+                                  Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::point_sphere_signed_distance, T>(simd, answers, point, sphere);
+}
+template <class T>
+void point_segment_signed_distance(SoaView<Vec3<T>> point, SoaView<Segment<T>> segment,
+                                   SoaSpan<SignedDistance<T>> answers, Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::point_segment_signed_distance, T>(simd, answers, point, segment);
+}
+template <class T>
+void point_capsule_signed_distance(SoaView<Vec3<T>> point, SoaView<Capsule<T>> capsule,
+                                   SoaSpan<SignedDistance<T>> answers, Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::point_capsule_signed_distance, T>(simd, answers, point, capsule);
+}
+template <class T>
+void sphere_sphere_signed_distance(SoaView<Sphere<T>> sphere1, SoaView<Sphere<T>> sphere2,
+                                   SoaSpan<SignedDistance<T>> answers, Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::sphere_sphere_signed_distance, T>(simd, answers, sphere1, sphere2);
+}
+template <class T>
+void sphere_segment_signed_distance(SoaView<Sphere<T>> sphere, SoaView<Segment<T>> segment,
+                                    SoaSpan<SignedDistance<T>> answers, Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::sphere_segment_signed_distance, T>(simd, answers, sphere, segment);
+}
+template <class T>
+void sphere_capsule_signed_distance(SoaView<Sphere<T>> sphere, SoaView<Capsule<T>> capsule,
+                                    SoaSpan<SignedDistance<T>> answers, Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::sphere_capsule_signed_distance, T>(simd, answers, sphere, capsule);
+}
+template <class T>
+void segment_segment_signed_distance(SoaView<Segment<T>> segment1, SoaView<Segment<T>> segment2,
+                                     SoaSpan<SignedDistance<T>> answers, Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::segment_segment_signed_distance, T>(simd, answers, segment1, segment2);
+}
+template <class T>
+void segment_capsule_signed_distance(SoaView<Segment<T>> segment, SoaView<Capsule<T>> capsule,
+                                     SoaSpan<SignedDistance<T>> answers, Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::segment_capsule_signed_distance, T>(simd, answers, segment, capsule);
+}
+template <class T>
+void capsule_capsule_signed_distance(SoaView<Capsule<T>> capsule1, SoaView<Capsule<T>> capsule2,
+                                     SoaSpan<SignedDistance<T>> answers, Simd simd = widest_simd()) {
+  detail::answer_batch<detail::batched::capsule_capsule_signed_distance, T>(simd, answers, capsule1, capsule2);
 }
 template <class T>
 void sphere_sphere_penetration(SoaView<Sphere<T>> sphere1, SoaView<Sphere<T>> sphere2, SoaSpan<Penetration<T>> answers,

@@ -68,6 +68,7 @@ struct Wide<double> {
 
 #include <collide/detail/batch/kernels.hpp>
 #include <collide/detail/batch/motions.hpp>
+#include <collide/detail/batch/rounded.hpp>
 
 #include <collide/detail/batch/blocks.hpp>
 

@@ -9,15 +9,19 @@
 #include <collide/detail/strict_begin.hpp>
 
 template <class T>
-COLLIDE_BATCH_FUNCTION Wide<T> block(batched::sphere_sphere_overlap, Reader<T>& in, Writer<T>& out) {
+COLLIDE_BATCH_FUNCTION Wide<T> overlap(const WideBall<T>& ball1, const WideBall<T>& ball2, Writer<T>& out) {
   using L = Wide<T>;
-  const WideBall<T> ball1 = in.ball(), ball2 = in.ball();
   const WideVec3<T> between = ball2.center - ball1.center;
   const L reach = ball1.radius + ball2.radius, beyond = dot(between, between) - reach * reach;
   // A center that is not finite makes `beyond` NaN or +infinity.
   out.flag((reach <= L::splat(std::numeric_limits<T>::max())) & (beyond <= L::splat(T(0))) &
            are_finite(ball1.radius, ball2.radius));
   return every_lane<T>();
+}
+template <class T>
+COLLIDE_BATCH_FUNCTION Wide<T> block(batched::sphere_sphere_overlap, Reader<T>& in, Writer<T>& out) {
+  const WideBall<T> ball = in.ball();
+  return overlap(ball, in.ball(), out);
 }
 
 template <class T>
