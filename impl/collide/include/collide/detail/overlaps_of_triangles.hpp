@@ -78,12 +78,14 @@ class PlaneOfPoints {
 inline std::array<Vec3<double>, 3> corners_in_double(const auto& triangle) {
   return {in_double(triangle.v0), in_double(triangle.v1), in_double(triangle.v2)};
 }
-/// Whether the magnitudes of all coordinates are at most 2^199.
+/// Whether all coordinates are numbers whose magnitude is at most 2^199.
 template <std::size_t n>
 bool are_moderate(const std::array<Vec3<double>, n>& points) {
-  double largest = 0;
-  for (const Vec3<double>& p : points) largest = larger(largest, larger(larger(abs(p.x), abs(p.y)), abs(p.z)));
-  return largest <= 0x1p199;
+  constexpr double most = 0x1p199;
+  bool moderate = true;
+  for (const Vec3<double>& p : points)
+    moderate = moderate && abs(p.x) <= most && abs(p.y) <= most && abs(p.z) <= most;  // false for NaN
+  return moderate;
 }
 template <std::size_t n, std::size_t m>
 bool have_equal_points(const std::array<Vec3<double>, n>& a, const std::array<Vec3<double>, m>& b) {

@@ -16,6 +16,7 @@
 #include <tuple>
 #include <utility>
 
+#include <collide/detail/boxes_in_one_frame.hpp>
 #include <collide/detail/shortest_ways.hpp>
 
 #include <collide/detail/strict_begin.hpp>
@@ -1296,6 +1297,23 @@ auto signed_distance(const A& a, const B& b, Proposal& proposal) {
   }
 }
 
+/// The answer of machine numbers as `Tier` lifts it.
+template <class Tier, class A, class B>
+auto lifted_signed_distance(const A& a, const B& b) {
+  if constexpr (requires { detail::are_in_one_frame(a, b); }) {
+    if (detail::are_in_one_frame(a, b)) {
+      return Tier::lift([](auto tier, const auto& one,
+                           const auto& other) { return distance_in_one_frame<decltype(tier)>(one, other); },
+                        a, b);
+    }
+  }
+  return Tier::lift(
+      [proposal = Proposal(a, b)](auto tier, const auto& one, const auto& other) mutable {
+        return signed_distance<decltype(tier)>(one, other, proposal);
+      },
+      a, b);
+}
+
 }  // namespace kernels
 
 namespace contracts {
@@ -1328,13 +1346,8 @@ constexpr Contract signed_distance(double backward) {
   template <class Tier, class T>                                                                      \
   inline SignedDistance<T> name(const First<T>& first, const Second<T>& second) {                     \
     if constexpr (Tier::template lifts<T>) {                                                          \
-      const auto& one = detail::with_moderate_rotation(first);                                        \
-      const auto& other = detail::with_moderate_rotation(second);                                     \
-      return Tier::lift(                                                                              \
-          [proposal = Proposal(one, other)](auto tier, const auto& a, const auto& b) mutable {        \
-            return signed_distance<decltype(tier)>(a, b, proposal);                                   \
-          },                                                                                          \
-          one, other);                                                                                \
+      return lifted_signed_distance<Tier>(detail::with_moderate_rotation(first),                      \
+                                          detail::with_moderate_rotation(second));                    \
     } else {                                                                                          \
       return signed_distance<Tier>(first, second);                                                    \
     }                                                                                                 \
