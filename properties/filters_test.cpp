@@ -126,6 +126,8 @@ constexpr std::string_view with_numbers[] = {
     "capsule_triangle_overlap",
     "triangle_triangle_overlap",
     "triangle_box_overlap",
+    "segment_box_overlap",
+    "capsule_box_overlap",
 };
 
 /// The same for those that start outside: a start in contact is left to the kernel.
@@ -160,7 +162,7 @@ constexpr std::string_view with_cancellation[] = {
     "point_in_rectangle",        "box_box_conservative",      "moving_point_sphere",      "moving_sphere_sphere",
     "moving_sphere_triangle",    "sphere_box_penetration",    "box_box_penetration",      "box_plane_penetration",
     "sphere_plane_penetration",  "sphere_sphere_penetration", "segment_triangle_overlap", "capsule_triangle_overlap",
-    "triangle_triangle_overlap",
+    "triangle_triangle_overlap", "segment_box_overlap",       "capsule_box_overlap",
 };
 
 TEST_P(FilterOfCertified, IsRightAsTheDecisionChanges) {

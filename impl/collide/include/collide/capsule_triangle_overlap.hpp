@@ -9,6 +9,6 @@ namespace collide {
 /// no front here; collinear vertices are a segment.
 ///
 /// Units: lengths. Never fails. Non-finite input: no. Source: detail/overlaps_of_triangles.hpp.
-COLLIDE_OVERLAP_WITH_TRIANGLE(capsule_triangle_overlap, Capsule, capsule, Triangle, triangle)
+COLLIDE_OVERLAP(capsule_triangle_overlap, Capsule, capsule, Triangle, triangle)
 
 }  // namespace collide

@@ -9,6 +9,6 @@ namespace collide {
 /// are a segment.
 ///
 /// Units: lengths. Never fails. Non-finite input: no. Source: detail/overlaps_of_triangles.hpp.
-COLLIDE_OVERLAP_WITH_TRIANGLE(segment_triangle_overlap, Segment, segment, Triangle, triangle)
+COLLIDE_OVERLAP(segment_triangle_overlap, Segment, segment, Triangle, triangle)
 
 }  // namespace collide

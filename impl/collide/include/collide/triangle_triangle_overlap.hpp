@@ -9,6 +9,6 @@ namespace collide {
 /// segment.
 ///
 /// Units: lengths. Never fails. Non-finite input: no. Source: detail/overlaps_of_triangles.hpp.
-COLLIDE_OVERLAP_WITH_TRIANGLE(triangle_triangle_overlap, Triangle, triangle1, Triangle, triangle2)
+COLLIDE_OVERLAP(triangle_triangle_overlap, Triangle, triangle1, Triangle, triangle2)
 
 }  // namespace collide

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <limits>
 
 #include <collide/answers.hpp>
@@ -260,6 +261,10 @@ SeparationOfCores<Tier, A, B> separation_of(const A& a, const B& b) {
   return {a, b};
 }
 
+/// Whether Fast tries the filter of two shapes too: its own kernel takes several times as long.
+template <class A, class B>
+inline constexpr bool filter_is_fast = false;
+
 }  // namespace detail
 
 namespace kernels {
@@ -309,18 +314,25 @@ constexpr Contract overlap(double backward) {
     COLLIDE_ANSWER(name, TierOfDecisions<Tier>, first, second);                                                        \
   }
 
-/// Defines its kernel too, which lifts kernels::overlap.
-#define COLLIDE_OVERLAP(name, First, first, Second, second)                 \
-  namespace kernels {                                                       \
-  template <class Tier, class T>                                            \
-  inline Decision<T> name(const First<T>& first, const Second<T>& second) { \
-    if constexpr (Tier::template lifts<T>) {                                \
-      return COLLIDE_LIFTED(name, first, second);                           \
-    } else {                                                                \
-      return overlap<Tier>(first, second);                                  \
-    }                                                                       \
-  }                                                                         \
-  }                                                                         \
+/// Defines its kernel too, which tries detail::filtered_overlap and lifts kernels::overlap.
+#define COLLIDE_OVERLAP(name, First, first, Second, second)                                                 \
+  namespace kernels {                                                                                       \
+  template <class Tier, class T>                                                                            \
+  inline Decision<T> name(const First<T>& first, const Second<T>& second) {                                 \
+    constexpr bool certifies = uses_filter<Tier, T>;                                                        \
+    if constexpr (certifies || (std::same_as<Tier, Fast> && detail::filter_is_fast<First<T>, Second<T>>)) { \
+      if (const auto decided = detail::filtered_overlap(first, second)) {                                   \
+        if constexpr (certifies) return Tier::decided_by_filter(Decision<T>{*decided});                     \
+        return {*decided};                                                                                  \
+      }                                                                                                     \
+    }                                                                                                       \
+    if constexpr (Tier::template lifts<T>) {                                                                \
+      return COLLIDE_LIFTED(name, first, second);                                                           \
+    } else {                                                                                                \
+      return overlap<Tier>(first, second);                                                                  \
+    }                                                                                                       \
+  }                                                                                                         \
+  }                                                                                                         \
   COLLIDE_OVERLAP_FUNCTION(name, First, first, Second, second)
 
 // NOLINTEND(bugprone-macro-parentheses)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/detail/aabox_triangle_overlap.hpp>
+#include <collide/detail/capsule_box_filter.hpp>
 #include <collide/detail/moving_sphere_passes_box.hpp>
 #include <collide/detail/overlaps.hpp>
 #include <collide/detail/sphere_box_overlap.hpp>

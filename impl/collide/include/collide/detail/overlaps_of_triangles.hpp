@@ -22,10 +22,9 @@ namespace collide {
 
 namespace detail {
 
-/// True if the tier tries these filters before it calls the kernel, which takes several times as long.
-template <class Tier, class T>
-inline constexpr bool tries_in_doubles =
-    uses_filter<Tier, T> || (std::same_as<Tier, Fast> && (std::same_as<T, float> || std::same_as<T, double>));
+template <class A, class T>
+  requires(std::same_as<T, float> || std::same_as<T, double>)
+inline constexpr bool filter_is_fast<A, Triangle<T>> = true;
 
 /// The sign of a number that has an error of at most `error`: -1 or 1, or 0 if it is in doubt.
 constexpr int sign_beyond(double number, double error) { return int(number > error) - int(number < -error); }
@@ -228,29 +227,5 @@ std::optional<bool> filtered_overlap(const Capsule<T>& capsule, const Triangle<T
 
 }  // namespace detail
 }  // namespace collide
-
-// NOLINTBEGIN(bugprone-macro-parentheses): a type and a name that is declared have none
-
-/// Defines the function `name` of one of these shapes and a triangle, its contract and its kernel.
-#define COLLIDE_OVERLAP_WITH_TRIANGLE(name, First, first, Second, second)                          \
-  namespace kernels {                                                                              \
-  template <class Tier, class T>                                                                   \
-  inline Decision<T> name(const First<T>& first, const Second<T>& second) {                        \
-    if constexpr (detail::tries_in_doubles<Tier, T>) {                                             \
-      if (const auto decided = detail::filtered_overlap(first, second)) {                          \
-        if constexpr (uses_filter<Tier, T>) return Tier::decided_by_filter(Decision<T>{*decided}); \
-        return {*decided};                                                                         \
-      }                                                                                            \
-    }                                                                                              \
-    if constexpr (Tier::template lifts<T>) {                                                       \
-      return COLLIDE_LIFTED(name, first, second);                                                  \
-    } else {                                                                                       \
-      return overlap<Tier>(first, second);                                                         \
-    }                                                                                              \
-  }                                                                                                \
-  }                                                                                                \
-  COLLIDE_OVERLAP_FUNCTION(name, First, first, Second, second)
-
-// NOLINTEND(bugprone-macro-parentheses)
 
 #include <collide/detail/strict_end.hpp>
