@@ -18,6 +18,7 @@
 
 #include <collide/detail/boxes_in_one_frame.hpp>
 #include <collide/detail/shortest_ways.hpp>
+#include <collide/detail/wide_filters.hpp>
 
 #include <collide/detail/strict_begin.hpp>
 
@@ -1300,6 +1301,10 @@ auto signed_distance(const A& a, const B& b, Proposal& proposal) {
 /// The answer of machine numbers as `Tier` lifts it.
 template <class Tier, class A, class B>
 auto lifted_signed_distance(const A& a, const B& b) {
+  if constexpr (
+      requires { detail::filtered_distance(a, b); } && requires { Tier::decided_by_filter(true); }) {
+    if (const auto decided = detail::filtered_distance(a, b)) return Tier::decided_by_filter(*decided);
+  }
   if constexpr (requires { detail::are_in_one_frame(a, b); }) {
     if (detail::are_in_one_frame(a, b)) {
       return Tier::lift([](auto tier, const auto& one,

@@ -290,6 +290,53 @@ std::optional<Penetration<T>> accurate_penetration(T depth, const Vec3<T>& norma
   return std::nullopt;
 }
 
+/// The errors of a signed distance and its points, in units of u.
+struct ErrorsOfDistance {
+  double distance, point1, point2;
+};
+/// A signed distance, or nullopt where the distance or a point is not accurate, or not finite.
+template <class T>
+std::optional<SignedDistance<T>> accurate_distance(const Wider<T>& distance, const Vec3<Wider<T>>& normal,
+                                                   const Vec3<Wider<T>>& point1, const Vec3<Wider<T>>& point2,
+                                                   const ErrorsOfDistance& errors) {
+  using W = Wider<T>;
+  using limits = std::numeric_limits<T>;
+  constexpr double enough = double(half_ulp<T>) / 1.5;  // a margin of a half for the errors of the bounds
+  const auto is_accurate = [](const W& largest, double error) {
+    return error <= enough * double(largest) && largest >= W(limits::min()) && largest <= W(limits::max());
+  };
+  if (is_accurate(detail::abs(distance), errors.distance) && is_accurate(largest_magnitude(point1), errors.point1) &&
+      is_accurate(largest_magnitude(point2), errors.point2))
+    return SignedDistance<T>{T(distance), rounded_to<T>(normal), rounded_to<T>(point1), rounded_to<T>(point2)};
+  return std::nullopt;
+}
+
+/// Filter: the signed distance of two spheres with different centers, or nullopt.
+///
+/// The way between the centers has an error of 1 u, its length one of 4 u, and the normal one of 6 u. So the distance
+/// has an error of 4 u of the length and 2 u of the radii, 1 u of itself more, and a point one of 7 u of its radius and
+/// 1 u of itself.
+template <class T>
+std::optional<SignedDistance<T>> filtered_distance(const Sphere<T>& sphere1, const Sphere<T>& sphere2) {
+  if constexpr (has_wider<T>) {
+    using W = Wider<T>;
+    const Vec3<W> center1 = in_wider(sphere1.center), center2 = in_wider(sphere2.center), between = center2 - center1;
+    const W length = detail::sqrt(Plain::dot(between, between));
+    if (!(length >= W(std::numeric_limits<T>::min()))) return std::nullopt;
+    const W radius1 = W(sphere1.radius), radius2 = W(sphere2.radius), radii = radius1 + radius2;
+    const Vec3<W> normal = between * (W(1) / length);
+    const double of_point1 = 8 * double(radius1) + double(largest_magnitude(center1)),
+                 of_point2 = 8 * double(radius2) + double(largest_magnitude(center2));
+    return accurate_distance<T>(length - radii, normal, center1 + normal * radius1, center2 - normal * radius2,
+                                {5 * double(length + radii), of_point1, of_point2});
+  }
+  return std::nullopt;
+}
+template <class T>
+std::optional<SignedDistance<T>> filtered_distance(const Vec3<T>& point, const Sphere<T>& sphere) {
+  return filtered_distance(Sphere<T>{point, T(0)}, sphere);
+}
+
 /// Filter: the penetration of two spheres with different centers, or nullopt.
 ///
 /// The distance has an error of 4 u of itself and the sum of the radii one of 1 u. So the depth has an error of 4 u of
