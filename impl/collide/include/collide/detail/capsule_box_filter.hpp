@@ -39,16 +39,17 @@ class CapsuleInFrame {
   }
 
   std::optional<bool> overlap() const {
-    const double error = 128 * u * size_, radius = radius_, slack = 16 * u * radius;
-    if (!(size_ >= 0x1p-200 && size_ <= 0x1p200 && radius <= 0x1p200)) return std::nullopt;
+    if (!(size_ >= 0x1p-200 && size_ <= 0x1p200 && radius_ <= 0x1p200)) return std::nullopt;
+    const double error = 128 * u * size_;
+    const W radius = W(radius_), doubt = W(error + 16 * u * radius_);  // their sum in double would lose the doubt
     if (is_inside(middle_of_crossing(), W(error))) return true;
     const std::array<W, 3> way = way_at(nearest_parameter());
-    const W length2 = dot(way, way), sure = W(radius - slack - error);
+    const W length2 = dot(way, way), sure = radius - doubt;
     if (W(0x1p-300) <= sure && length2 <= sure * sure) return true;
     const W first = dot(way, start_), last = dot(way, end_);
     W gap = last < first ? last : first;
     for (std::size_t k = 0; k < 3; ++k) gap = gap - abs(way[k]) * half_[k];
-    if (W(0x1p-600) <= length2 && gap > sqrt(length2) * W(radius + slack + error)) return false;
+    if (W(0x1p-600) <= length2 && gap > sqrt(length2) * (radius + doubt)) return false;
     return std::nullopt;
   }
 
