@@ -1,13 +1,16 @@
-/// The signed distance of two boxes with the same orientation, in numbers that decide: along each of the three common
-/// axes the boxes are two intervals. By features, each edge of one box is parallel to an edge of the other, and each
-/// product of two of them is a zero that only exact numbers prove.
+/// The signed distance of two boxes with the same orientation: along each of the three common axes the boxes are two
+/// intervals. By features, each edge of one box is parallel to an edge of the other, and each product of two of them is
+/// a zero that only exact numbers prove.
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include <collide/answers.hpp>
+#include <collide/detail/double_word.hpp>
 #include <collide/detail/frame.hpp>
 #include <collide/detail/machine_math.hpp>
+#include <collide/detail/overlaps.hpp>
 #include <collide/shapes.hpp>
 #include <collide/tiers.hpp>
 
@@ -17,12 +20,29 @@ namespace collide {
 
 namespace detail {
 
-/// Whether two boxes have the same orientation: their quaternions are equal or opposite.
+/// Whether a * b = c * d exactly; no where a product may have underflowed.
+inline bool are_equal_products(float a, float b, float c, float d) {
+  return double(a) * double(b) == double(c) * double(d);
+}
+inline bool are_equal_products(double a, double b, double c, double d) {
+  using Product = DoubleWord<double>;
+  const Product first = Product::two_product(a, b), second = Product::two_product(c, d);
+  const bool exact = abs(first.high) >= 0x1p-900 || ((a == 0 || b == 0) && (c == 0 || d == 0));
+  return exact && first == second;
+}
+inline bool are_equal_products(long double, long double, long double, long double) { return false; }
+
+/// Whether two boxes have the same orientation: one quaternion is a multiple of the other.
 template <MachineNumber T>
-constexpr bool are_in_one_frame(const Box<T>& a, const Box<T>& b) {
+bool are_in_one_frame(const Box<T>& a, const Box<T>& b) {
   const Quaternion<T>&p = a.orientation, &q = b.orientation;
-  return (p.x == q.x && p.y == q.y && p.z == q.z && p.w == q.w) ||
-         (p.x == -q.x && p.y == -q.y && p.z == -q.z && p.w == -q.w);
+  const std::array<T, 4> first{p.x, p.y, p.z, p.w}, second{q.x, q.y, q.z, q.w};
+  std::size_t largest = 0;
+  for (std::size_t k = 1; k < 4; ++k) largest = abs(first[k]) > abs(first[largest]) ? k : largest;
+  bool same = second[largest] != T(0);
+  for (std::size_t k = 0; k < 4; ++k)
+    same = same && are_equal_products(first[largest], second[k], second[largest], first[k]);
+  return same;
 }
 
 }  // namespace detail
@@ -43,7 +63,7 @@ SignedDistance<T> distance_in_one_frame(const Box<T>& a, const Box<T>& b) {
   for (int k = 0; k < 3; ++k) {
     gap[k] = abs(between[k]) - (half[k] + other[k]);
     leads[k] = gap[k] > T(0);
-    count += int(leads[k]);
+    if (leads[k]) most = k, ++count;
   }
   if (count == 0) {
     for (int k = 1; k < 3; ++k) most = gap[k] > gap[most] ? k : most;
@@ -63,11 +83,16 @@ SignedDistance<T> distance_in_one_frame(const Box<T>& a, const Box<T>& b) {
     }
   }
   const Vec3<T> point1 = a.center + out_of_frame(axes, from), point2 = a.center + out_of_frame(axes, to);
-  for (int k = 0; k < 3 && count == 1; ++k) {
-    if (leads[k]) return {gap[k], between[k] >= T(0) ? axes[k] : -axes[k], point1, point2};
+  const Vec3<T> axis = between[most] >= T(0) ? axes[most] : -axes[most], out = out_of_frame(axes, way);
+  if constexpr (MachineNumber<T>) {  // axes are rounded, and squares of extreme numbers leave the range
+    const Vec3<T> direction = detail::of_moderate_length(count == 1 ? axis : out);
+    const Vec3<T> normal = direction * (T(1) / sqrt(Tier::dot(direction, direction)));
+    return {count == 1 ? gap[most] : Tier::dot(out, normal), normal, point1, point2};
+  } else {
+    if (count == 1) return {gap[most], axis, point1, point2};
+    const T distance = sqrt(length2);
+    return {distance, out * (T(1) / distance), point1, point2};
   }
-  const T distance = sqrt(length2);
-  return {distance, out_of_frame(axes, way) * (T(1) / distance), point1, point2};
 }
 
 }  // namespace kernels

@@ -39,7 +39,7 @@ class CapsuleInFrame {
   }
 
   std::optional<bool> overlap() const {
-    if (!(size_ >= 0x1p-200 && size_ <= 0x1p200 && radius_ <= 0x1p200)) return std::nullopt;
+    if (!(size_ >= 0x1p-200 && size_ <= 0x1p200 && radius_ >= 0 && radius_ <= 0x1p200)) return std::nullopt;
     const double error = 128 * u * size_;
     const W radius = W(radius_), doubt = W(error + 16 * u * radius_);  // their sum in double would lose the doubt
     if (is_inside(middle_of_crossing(), W(error))) return true;

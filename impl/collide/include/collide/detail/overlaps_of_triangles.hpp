@@ -212,7 +212,7 @@ std::optional<bool> filtered_overlap(const Capsule<T>& capsule, const Triangle<T
   double s = extent_of(end);
   for (Vec3<double>& corner : corners) corner = corner - start, s = s + extent_of(corner);
   const double radius = capsule.radius, error = 0x1p-48 * s, slack = 0x1p-49 * radius;
-  if (!(s >= 0x1p-200 && s <= 0x1p200 && radius <= 0x1p200)) return std::nullopt;
+  if (!(s >= 0x1p-200 && s <= 0x1p200 && radius >= 0 && radius <= 0x1p200)) return std::nullopt;
   const Axis<double> axis(Vec3<double>{}, end, Vec3<double>{});
   const WayToTriangle shortest(axis, corners);
   const double sure = radius - slack - error, length2 = shortest.length2();
