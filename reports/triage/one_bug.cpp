@@ -1,11 +1,11 @@
 #include "reports/triage/one_bug.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
 #include <map>
 #include <numeric>
 
 #include "oracles/confirmed.hpp"
+#include "reports/triage/causes/shares.hpp"
 #include "reports/triage/hypotheses/readings.hpp"
 #include "reports/triage/trials/trials.hpp"
 
@@ -13,20 +13,15 @@ namespace nearmiss {
 
 namespace {
 
-using boost::math::binomial;
-
-/// The probability that a bound of a share, of Clopper and Pearson, is wrong.
-constexpr double error_of_a_share = 0.05;
-
 /// All, or with that confidence more than half: what holds of a finding holds more often than not.
 bool is_proved_of_most(std::size_t part, std::size_t whole) {
   if (whole == 0 || part == whole) return whole > 0;
-  return binomial::find_lower_bound_on_p(double(whole), double(part), error_of_a_share) > 0.5;
+  return proved_at_least(part, whole) > 0.5;
 }
 
 /// Of so many findings a part was seen, and the true share may be this one.
 bool may_have_share(std::size_t part, std::size_t whole, double share) {
-  return part > 0 && binomial::find_upper_bound_on_p(double(whole), double(part), error_of_a_share) >= share;
+  return part > 0 && proved_at_most(part, whole) >= share;
 }
 
 bool is_reading(const std::string& key) {

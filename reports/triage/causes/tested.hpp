@@ -14,6 +14,7 @@ namespace nearmiss {
 enum class Prediction {
   at_every_scale,     ///< the finding stays where lengths or velocities are multiplied by powers of two
   in_every_rounding,  ///< the finding stays in the four rounding modes; behind pipes, where numbers move by some ulps
+  in_every_mode,      ///< the finding of this case, and of nearly all others, stays in the four rounding modes
   extreme_numbers,    ///< a formula of the case leaves the range of a type
   small_error,        ///< the error is one that rounding may have
   two_borders,        ///< from scale to scale, the answers are wrong, then right, and then wrong again
@@ -36,6 +37,7 @@ struct Tested {
 };
 
 /// 9 of 10.
+constexpr double share_of_nearly_all = 0.9;
 inline bool nearly_all(std::size_t part, std::size_t all) { return all > 0 && 10 * part >= 9 * all; }
 /// 3 of 4.
 inline bool most(std::size_t part, std::size_t all) { return all > 0 && 4 * part >= 3 * all; }

@@ -17,6 +17,8 @@ namespace nearmiss {
 namespace {
 
 constexpr std::size_t sample_size = 256;
+constexpr Rounding rounding_modes[] = {Rounding::to_nearest, Rounding::downward, Rounding::upward,
+                                       Rounding::toward_zero};
 
 }  // namespace
 
@@ -98,9 +100,22 @@ const std::vector<Trial>& AskedCases::roundings() {
   if (roundings_) return *roundings_;
   roundings_.emplace();
   if (!trials_.sets_rounding()) return *roundings_;
-  for (const Rounding r : {Rounding::to_nearest, Rounding::downward, Rounding::upward, Rounding::toward_zero})
-    roundings_->push_back(trials_.ask({&question(), 1}, r).front());
+  for (const Rounding r : rounding_modes) roundings_->push_back(trials_.ask({&question(), 1}, r).front());
   return *roundings_;
+}
+
+const std::vector<std::vector<Trial>>& AskedCases::similar_roundings() {
+  if (similar_roundings_) return *similar_roundings_;
+  similar_roundings_.emplace();
+  if (!trials_.sets_rounding() || similar().empty()) return *similar_roundings_;
+  std::vector<Case> cases;
+  for (const Trial& t : similar()) cases.push_back(t.question);
+  similar_roundings_->resize(cases.size());
+  for (const Rounding r : rounding_modes) {
+    std::vector<Trial> asked = trials_.ask(cases, r);
+    for (std::size_t i = 0; i < asked.size(); ++i) (*similar_roundings_)[i].push_back(std::move(asked[i]));
+  }
+  return *similar_roundings_;
 }
 
 const std::vector<ScaleScan>& AskedCases::scans() {

@@ -41,6 +41,8 @@ class AskedCases {
   const std::vector<Trial>& neighbours();
   /// The case in the four rounding modes; none for a subject behind pipes.
   const std::vector<Trial>& roundings();
+  /// Each of the similar cases in the four rounding modes; none for a subject behind pipes.
+  const std::vector<std::vector<Trial>>& similar_roundings();
   /// The case at many scales, in the order of scale_groups().
   const std::vector<ScaleScan>& scans();
 
@@ -83,6 +85,7 @@ class AskedCases {
   std::uint64_t seed_;
   IsRight is_right_ = [this](const Case& c, const Answer& a) { return trials_.is_right(c, a); };
   std::optional<std::vector<Trial>> similar_, sample_, fresh_, neighbours_, roundings_;
+  std::optional<std::vector<std::vector<Trial>>> similar_roundings_;
   std::optional<std::vector<ScaleScan>> scans_;
   std::uint64_t generated_ = 0;  ///< the generator's next case after the sample
   RoundingSeen rounding_seen_;

@@ -195,8 +195,8 @@ class TestOfReadings : public TestOfCause {
                     "generated cases, {} wrong answers become right, and {} right ones become wrong.",
                     of_text(s.explained, s.with_finding), s.for_it, s.against_it));
     const std::string divisor = reading.name == "normal not of unit length" ? told_length_of_normals() : "";
-    return {reading.kind, std::string(reading.name),
-            fmt::format("The answer is right if {}.{}", reading.what, divisor)};
+    return {reading.kind, std::string(reading.name), fmt::format("The answer is right if {}.{}", reading.what, divisor),
+            predictions_of(reading)};
   }
   /// The length of the given normal; 0 where there is none.
   static double length_of_normal(const Trial& t) {

@@ -85,20 +85,25 @@ class NumberRange : public TestOfCause {
         {Prediction::extreme_numbers, Prediction::two_borders}};
   }
 
+  /// The binary exponent of the largest of the group's numbers, multiplied by 2^k; 0 where all are zero.
+  int exponent_at(const ScaleScan& s, int k) const {
+    const double largest = largest_of(k == 0 ? question() : *scaled(question(), *s.group, k), *s.group);
+    return largest > 0 ? std::ilogb(largest) : 0;
+  }
   /// A subject that broke, or that answers behind pipes, leaves no flags. The range is exceeded if the fourth power of
-  /// the largest number exceeds it wherever the finding is there, and the answer is right nearer to scale 1.
+  /// the largest of the group's numbers exceeds it wherever the finding is there, and the answer is right nearer to
+  /// scale 1.
   std::optional<Named> out_of_range_without_flags(const ScaleScan& s) {
     const bool has_flags = trials().sets_rounding() && trials().base().finding.verdict != Verdict::broke;
     if (has_flags || !s.flip) return std::nullopt;
     constexpr int powers = 4;
     const int highest = (trials().subject().scalar == Scalar::float32 ? 128 : 1024) / powers;
-    const int at_flip = largest_exponent_of(question()) + s.flip->wrong;
-    const int base = largest_exponent_of(question());
+    const int base = exponent_at(s, 0), at_flip = exponent_at(s, s.flip->wrong);
     const bool toward_one = at_flip < 0 ? base <= at_flip : base >= at_flip;
     if (!toward_one || (at_flip < highest && at_flip > -highest)) return std::nullopt;
     saw(fmt::format("All {} were multiplied by powers of two.", s.group->name),
         fmt::format(
-            "With 2^{} the answer is right. The finding stays from 1 to 2^{}, where the largest number is about "
+            "With 2^{} the answer is right. The finding stays from 1 to 2^{}, where the largest of them is about "
             "2^{}: its fourth power leaves the range of the scalar.",
             s.flip->right, s.flip->wrong, at_flip));
     return Named{at_flip > 0 ? CauseKind::overflow : CauseKind::underflow, std::string(s.group->name),

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "reports/findings/severity.hpp"
+#include "reports/triage/causes/shares.hpp"
 
 namespace nearmiss {
 
@@ -58,6 +59,18 @@ Contradiction depends_on_rounding(AskedCases& asked) {
   const std::size_t right = count(all, Outcome::right);
   if (right == 0) return std::nullopt;
   return Evidence{"The case was asked in the four rounding modes.", fmt::format("It is right in {}.", right)};
+}
+
+/// Others that may have another cause count where they are proved to be more than a few.
+Contradiction is_right_in_a_mode(AskedCases& asked) {
+  const std::size_t own = count(asked.roundings(), Outcome::right);
+  const auto& others = asked.similar_roundings();
+  const auto right = std::size_t(std::count_if(
+      others.begin(), others.end(), [](const std::vector<Trial>& modes) { return count(modes, Outcome::right) > 0; }));
+  if (own == 0 && proved_at_least(right, others.size()) <= 1 - share_of_nearly_all) return std::nullopt;
+  return Evidence{
+      "The case and others with the finding were asked in the four rounding modes.",
+      fmt::format("The case is right in {}, and {} others are right in one.", own, of_text(right, others.size()))};
 }
 
 /// No formula of the queries has a higher degree than 8: that of the discriminant of a point that meets a cylinder,
@@ -157,10 +170,11 @@ struct Test {
   Contradiction (*contradiction)(AskedCases&);
 };
 constexpr std::array tests{
-    Test{Prediction::at_every_scale, depends_on_scale},      Test{Prediction::in_every_rounding, depends_on_rounding},
-    Test{Prediction::extreme_numbers, stays_in_range},       Test{Prediction::small_error, is_no_error_of_rounding},
-    Test{Prediction::two_borders, has_many_borders},         Test{Prediction::one_border, has_several_borders},
-    Test{Prediction::ends_at_a_scale, stays_at_every_scale}, Test{Prediction::one_side_nearby, is_lost_nearby}};
+    Test{Prediction::at_every_scale, depends_on_scale},     Test{Prediction::in_every_rounding, depends_on_rounding},
+    Test{Prediction::in_every_mode, is_right_in_a_mode},    Test{Prediction::extreme_numbers, stays_in_range},
+    Test{Prediction::small_error, is_no_error_of_rounding}, Test{Prediction::two_borders, has_many_borders},
+    Test{Prediction::one_border, has_several_borders},      Test{Prediction::ends_at_a_scale, stays_at_every_scale},
+    Test{Prediction::one_side_nearby, is_lost_nearby}};
 
 }  // namespace
 

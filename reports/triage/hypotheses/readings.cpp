@@ -290,6 +290,10 @@ const Layout::Part* given_part(const Case& c, const Answer& a, Role role) {
   return found == parts.end() ? nullptr : &*found;
 }
 
+std::vector<Prediction> predictions_of(const Reading& reading) {
+  return reading.decides ? std::vector<Prediction>{} : std::vector{Prediction::in_every_mode};
+}
+
 std::span<const Reading> readings() {
   static const std::vector<Reading> table = [] {
     std::vector<Reading> all(std::begin(of_answers), std::end(of_answers));

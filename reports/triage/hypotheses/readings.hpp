@@ -5,9 +5,10 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "impl/subject/convention.hpp"
-#include "reports/triage/causes/cause.hpp"
+#include "reports/triage/causes/tested.hpp"
 
 namespace nearmiss {
 
@@ -25,6 +26,9 @@ struct Reading {
 };
 
 std::span<const Reading> readings();
+/// What is true besides where a reading is the cause. A meaning does not depend on how numbers are rounded. A decision
+/// at a touch may.
+std::vector<Prediction> predictions_of(const Reading& reading);
 /// Those about the numbers of the answer: also those of values and of contacts.
 std::span<const Reading> readings_of_answers();
 /// Those about the front of a plane or triangle, or the frame of a box; they are among readings().

@@ -150,19 +150,14 @@ class RoundingErrors : public TestOfCause {
   /// by chance.
   bool holds_for_others(bool case_depends) {
     std::size_t all = 0, depend = 0;
-    for (const Trial& t : asked_.similar()) {
-      if (trials().is_over()) break;
-      all += 1, depend += depends_on_rounding(t);
-    }
+    for (std::size_t i = 0; i < asked_.similar_roundings().size(); ++i)
+      all += 1, depend += depends_on_rounding(asked_.similar()[i], asked_.similar_roundings()[i]);
     saw("The other cases with the finding were asked in the four rounding modes.",
         fmt::format("{} of them are right in another mode, or their error changes.", of_text(depend, all)));
     most_depend_ = all >= least_others && most(depend, all);
     return all < least_others ? case_depends : 2 * depend >= all;
   }
-  bool depends_on_rounding(const Trial& base) const {
-    std::vector<Trial> asked;
-    for (const Rounding r : {Rounding::to_nearest, Rounding::downward, Rounding::upward, Rounding::toward_zero})
-      asked.push_back(trials().ask({&base.question, 1}, r).front());
+  bool depends_on_rounding(const Trial& base, std::span<const Trial> asked) const {
     return count(asked, Outcome::right) > 0 || moved_by_rounding(base, asked) >= least_moved;
   }
 
