@@ -12,16 +12,17 @@ namespace nearmiss {
 
 /// What must be true besides if a cause is the right one. hypotheses/predictions.cpp has the tests.
 enum class Prediction {
-  at_every_scale,     ///< the finding stays where lengths or velocities are multiplied by powers of two
-  in_every_rounding,  ///< the finding stays in the four rounding modes; behind pipes, where numbers move by some ulps
-  in_every_mode,      ///< the finding of this case, and of nearly all others, stays in the four rounding modes
-  extreme_numbers,    ///< a formula of the case leaves the range of a type
-  small_error,        ///< the error is one that rounding may have
-  two_borders,        ///< from scale to scale, the answers are wrong, then right, and then wrong again
-  one_border,         ///< from scale to scale, the answers are wrong up to one border and right beyond it
-  ends_at_a_scale,    ///< the finding ends where lengths, velocities, directions or rotations are multiplied by a power
-                      ///< of two
-  one_side_nearby,    ///< at least half of the cases a few ulps away with the same exact decision are wrong too
+  at_every_scale,       ///< the finding stays where lengths or velocities are multiplied by powers of two
+  in_every_rounding,    ///< the finding stays in the four rounding modes; behind pipes, where numbers move by some ulps
+  in_every_mode,        ///< the finding of this case, and of nearly all others, stays in the four rounding modes
+  changes_by_rounding,  ///< the answer or its error changes with the rounding mode, or with the last bits of the inputs
+  extreme_numbers,      ///< a formula of the case leaves the range of a type
+  small_error,          ///< the error is one that rounding may have
+  two_borders,          ///< from scale to scale, the answers are wrong, then right, and then wrong again
+  one_border,           ///< from scale to scale, the answers are wrong up to one border and right beyond it
+  ends_at_a_scale,  ///< the finding ends where lengths, velocities, directions or rotations are multiplied by a power
+                    ///< of two
+  one_side_nearby,  ///< at least half of the cases a few ulps away with the same exact decision are wrong too
 };
 
 /// A cause whose test passed.

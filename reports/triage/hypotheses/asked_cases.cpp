@@ -125,6 +125,20 @@ const std::vector<ScaleScan>& AskedCases::scans() {
   return *scans_;
 }
 
+std::optional<std::pair<double, double>> AskedCases::errors_of(std::span<const Trial> trials) const {
+  constexpr std::size_t enough = 8;
+  double low = INFINITY, high = 0;
+  std::size_t seen = 0;
+  for (const Trial& t : trials) {
+    if (t.outcome != Outcome::same || seen == enough) continue;
+    const Finding full = trials_.in_full(t);
+    const MemberFinding* member = full.headline_member();
+    if (member == nullptr || member->worst < 0 || !(member->forward_absolute > 0)) return std::nullopt;
+    low = std::min(low, member->forward_absolute), high = std::max(high, member->forward_absolute), ++seen;
+  }
+  return seen == 0 ? std::nullopt : std::optional(std::pair(low, high));
+}
+
 bool AskedCases::same_in_all_roundings() {
   return !roundings().empty() && count(roundings(), Outcome::same) == roundings().size();
 }

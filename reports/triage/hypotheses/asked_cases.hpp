@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,6 +47,9 @@ class AskedCases {
   /// The case at many scales, in the order of scale_groups().
   const std::vector<ScaleScan>& scans();
 
+  /// The least and the largest error of at most eight of these trials with the finding; empty where one of them has no
+  /// number that is off, and where there is none.
+  std::optional<std::pair<double, double>> errors_of(std::span<const Trial> trials) const;
   bool same_in_all_roundings();
   /// " and in every rounding mode"; empty for a subject behind pipes, which was not asked in others.
   std::string_view and_in_every_rounding();

@@ -36,9 +36,11 @@ class ErrorShare : public TestOfCause {
                            best->low, best->high)
              : "They are one share of none.");
     if (!best) return std::nullopt;
-    return Named{CauseKind::relative_tolerance, best->constant.text,
+    return Named{CauseKind::relative_tolerance,
+                 best->constant.text,
                  fmt::format("The answer is off by {} (unit 1): {} has this value in nearly all cases.",
-                             best->constant.text, best->name)};
+                             best->constant.text, best->name),
+                 {Prediction::at_every_scale}};
   }
 
   /// The rest of what a tolerance does: errors that are bounded by a small share.
@@ -60,10 +62,12 @@ class ErrorShare : public TestOfCause {
                       "every scale and in every rounding mode: the subject computes or compares floats.",
                       2 * largest)};
     return Named{
-        CauseKind::relative_tolerance, "",
+        CauseKind::relative_tolerance,
+        "",
         fmt::format("Every wrong answer is right for numbers that differ by less than {:.2g} of their size, at "
                     "every scale and in every rounding mode: the subject has a relative tolerance.",
-                    2 * largest)};
+                    2 * largest),
+        {Prediction::at_every_scale, Prediction::in_every_rounding}};
   }
 
  private:

@@ -18,8 +18,10 @@ class Logic : public TestOfCause {
                                       [](const ScaleScan& s) { return s.has_clean_flip(); });
     if (asked_.has_small_errors() || !stays_beside_zeros()) return std::nullopt;
     if (asked_.is_exact() && no_flip)
-      return Named{CauseKind::logic, "",
-                   "The subject's arithmetic is exact here, and its answer is wrong at every scale."};
+      return Named{CauseKind::logic,
+                   "",
+                   "The subject's arithmetic is exact here, and its answer is wrong at every scale.",
+                   {Prediction::at_every_scale, Prediction::in_every_rounding}};
     const std::vector<Trial>& near = asked_.neighbours();
     const std::vector<Trial> around = trials().ask(relative_neighbours(question(), cases, order, asked_.seed() + 2));
     const std::size_t all = count_answered(around);

@@ -73,6 +73,21 @@ Contradiction is_right_in_a_mode(AskedCases& asked) {
       fmt::format("The case is right in {}, and {} others are right in one.", own, of_text(right, others.size()))};
 }
 
+/// Rounding errors that differ by less than a quarter are those of one rounding.
+Contradiction is_untouched_by_rounding(AskedCases& asked) {
+  constexpr double alike = 1.25;
+  const std::vector<Trial>& near = asked.neighbours();
+  for (const auto* list : {&asked.roundings(), &near}) {
+    if (count(*list, Outcome::right) > 0) return std::nullopt;
+    const auto errors = asked.errors_of(*list);
+    if (errors && errors->second >= alike * errors->first) return std::nullopt;
+  }
+  if (count_answered(near) == 0) return std::nullopt;
+  return Evidence{fmt::format("{} cases were asked whose numbers are a few ulps away{}.", count_answered(near),
+                              asked.roundings().empty() ? "" : ", and the case in the four rounding modes"),
+                  "None is right, and none has another error."};
+}
+
 /// No formula of the queries has a higher degree than 8: that of the discriminant of a point that meets a cylinder,
 /// which is a product of two products of two squared lengths. So numbers between 2^-16 and 2^16 leave no range, not
 /// even that of a float.
@@ -169,12 +184,16 @@ struct Test {
   Prediction prediction;
   Contradiction (*contradiction)(AskedCases&);
 };
-constexpr std::array tests{
-    Test{Prediction::at_every_scale, depends_on_scale},     Test{Prediction::in_every_rounding, depends_on_rounding},
-    Test{Prediction::in_every_mode, is_right_in_a_mode},    Test{Prediction::extreme_numbers, stays_in_range},
-    Test{Prediction::small_error, is_no_error_of_rounding}, Test{Prediction::two_borders, has_many_borders},
-    Test{Prediction::one_border, has_several_borders},      Test{Prediction::ends_at_a_scale, stays_at_every_scale},
-    Test{Prediction::one_side_nearby, is_lost_nearby}};
+constexpr std::array tests{Test{Prediction::at_every_scale, depends_on_scale},
+                           Test{Prediction::in_every_rounding, depends_on_rounding},
+                           Test{Prediction::in_every_mode, is_right_in_a_mode},
+                           Test{Prediction::changes_by_rounding, is_untouched_by_rounding},
+                           Test{Prediction::extreme_numbers, stays_in_range},
+                           Test{Prediction::small_error, is_no_error_of_rounding},
+                           Test{Prediction::two_borders, has_many_borders},
+                           Test{Prediction::one_border, has_several_borders},
+                           Test{Prediction::ends_at_a_scale, stays_at_every_scale},
+                           Test{Prediction::one_side_nearby, is_lost_nearby}};
 
 }  // namespace
 

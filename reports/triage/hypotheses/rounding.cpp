@@ -65,12 +65,12 @@ class RoundingErrors : public TestOfCause {
       saw("The flags of floating-point exceptions were read.", "The subject's arithmetic on the case was exact.");
       return std::nullopt;
     }
-    if (is_mixed(right, all) && others_depend && may_round) {
+    if (is_mixed(right, all) && others_depend && may_round && are_others_unstable()) {
       if (!are_on_two_sides(question(), near))
         return Named{CauseKind::rounding,
                      "",
                      "The answer is unstable: it is right or wrong by the last bits of the inputs.",
-                     {Prediction::small_error}};
+                     {Prediction::small_error, Prediction::changes_by_rounding}};
       saw("A plane was sought that separates these cases with the finding from those without.",
           "There is one: the case lies on a border, and the answer is not right or wrong by chance.");
     }
@@ -85,21 +85,15 @@ class RoundingErrors : public TestOfCause {
   /// Whether the errors differ of the cases a few ulps away with the finding, as rounding errors do. True for a wrong
   /// decision, which has no error.
   bool has_varying_errors() {
-    constexpr std::size_t least = 4, enough = 8;
+    constexpr std::size_t least = 4;
     constexpr double spread = 1.25;
-    double low = INFINITY, high = 0;
-    std::size_t seen = 0;
-    for (const Trial& t : asked_.neighbours()) {
-      if (t.outcome != Outcome::same || seen == enough) continue;
-      const Finding full = trials().in_full(t);
-      const MemberFinding* member = full.headline_member();
-      if (member == nullptr || member->worst < 0 || !(member->forward_absolute > 0)) return true;
-      low = std::min(low, member->forward_absolute), high = std::max(high, member->forward_absolute), ++seen;
-    }
+    const std::size_t seen = count(asked_.neighbours(), Outcome::same);
     if (seen == 0) return asked_.is_wrong_decision();
-    saw(fmt::format("The errors of {} cases were compared whose numbers are a few ulps away.", seen),
-        fmt::format("They are between {:.4g} and {:.4g}.", low, high));
-    return seen >= least && high >= spread * low;
+    const auto errors = asked_.errors_of(asked_.neighbours());
+    if (!errors) return true;
+    saw("The errors of cases were compared whose numbers are a few ulps away.",
+        fmt::format("They are between {:.4g} and {:.4g}.", errors->first, errors->second));
+    return seen >= least && errors->second >= spread * errors->first;
   }
   /// How far the worst number of the answer moves between the roundings, as a share of its error.
   double moved_by_rounding(const Trial& base, std::span<const Trial> roundings) const {
@@ -144,7 +138,9 @@ class RoundingErrors : public TestOfCause {
   }
   /// Any error may be one of rounding where most cases depend on the mode, and some rounding of this one is right.
   std::vector<Prediction> size_of_error() const {
-    return most_depend_ && is_right_by_rounding_ ? std::vector<Prediction>{} : std::vector{Prediction::small_error};
+    std::vector<Prediction> made{Prediction::changes_by_rounding};
+    if (!most_depend_ || !is_right_by_rounding_) made.push_back(Prediction::small_error);
+    return made;
   }
   /// Whether half of the other cases with the finding depend on the rounding mode too. A case on a border depends on it
   /// by chance.
@@ -159,6 +155,28 @@ class RoundingErrors : public TestOfCause {
   }
   bool depends_on_rounding(const Trial& base, std::span<const Trial> asked) const {
     return count(asked, Outcome::right) > 0 || moved_by_rounding(base, asked) >= least_moved;
+  }
+
+  /// Behind pipes, the last bits of the inputs stand for the rounding modes: whether half of the other cases with the
+  /// finding have a right answer nearby. A case on a border has one by chance.
+  bool are_others_unstable() {
+    constexpr std::size_t most_others = 8, of_each = 8;
+    constexpr int ulps = 8;
+    if (!asked_.roundings().empty() || asked_.similar().size() < least_others) return true;
+    std::vector<Case> near;
+    for (const Trial& t : std::span(asked_.similar()).first(std::min(most_others, asked_.similar().size()))) {
+      const auto some = ulp_neighbours(t.question, of_each, ulps, asked_.seed() + near.size());
+      near.insert(near.end(), some.begin(), some.end());
+    }
+    const std::vector<Trial> asked = trials().ask(near);
+    std::size_t all = 0, unstable = 0;
+    for (std::size_t i = 0; i < asked.size(); i += of_each) {
+      const auto some = std::span(asked).subspan(i, of_each);
+      ++all, unstable += count(some, Outcome::right) > 0;
+    }
+    saw("Cases were asked that are a few ulps away from other cases with the finding.",
+        fmt::format("{} of these others have a right answer nearby.", of_text(unstable, all)));
+    return 2 * unstable >= all;
   }
 
   /// Exactly moved toward the origin, in steps that halve the distance.
