@@ -1,15 +1,11 @@
 /// Causes of findings, continued: evidence that holds for nearly every case anyway proves nothing.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <vector>
 
-#include "oracles/judge.hpp"
 #include "reports/tests/mistaken_subject.hpp"
 #include "reports/triage/causes/shares.hpp"
-#include "reports/triage/hypotheses/readings.hpp"
 
 namespace nearmiss {
 namespace {
@@ -93,20 +89,6 @@ TEST(EvidenceOfACause, AMeaningDoesNotDependOnTheRounding) {
   ASSERT_FALSE(touching.empty());
   const Cause cause = cause_found(s, touching.front());
   EXPECT_NE(cause.kind, CauseKind::convention) << cause_text(cause);
-}
-
-TEST(EvidenceOfACause, AHitFromOutsideContradictsThatTheContactIsWhereItLeaves) {
-  const Case c = in_double("moving_point_sphere", {-5, 0.25, 0.5, 2, 0, 0, 0, 0, 0, 1, 1});
-  const IsRight is_right = [](const Case& other, const Answer& a) {
-    return judge(other, a, Standard{{.backward = 0x1p20}}, Detail::verdict).verdict <= Verdict::not_proved;
-  };
-  const Answer a = exact_answer("moving_point_sphere", c.values);
-  ASSERT_TRUE(a.yes && is_right(c, a));
-  const auto all = readings();
-  const auto leaves =
-      std::find_if(all.begin(), all.end(), [](const Reading& r) { return r.name == "contact where it leaves"; });
-  ASSERT_NE(leaves, all.end());
-  EXPECT_EQ(leaves->right(c, a, is_right), false);
 }
 
 /// Breaks for fast motions, which are none of large numbers.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reports/triage/causes/cause.hpp"
@@ -25,11 +26,19 @@ enum class Prediction {
   one_side_nearby,  ///< at least half of the cases a few ulps away with the same exact decision are wrong too
 };
 
+/// Where a finding ends while a group of numbers is multiplied by powers of two.
+struct BorderOfScale {
+  std::string_view group;
+  bool wrong_below = true;
+  double low = 0, high = 0;  ///< between these, the largest of the multiplied numbers lies at the borders
+};
+
 /// A cause whose test passed.
 struct Named {
   CauseKind kind = CauseKind::unexplained;
   std::string key, text;
   std::vector<Prediction> predictions{};
+  std::optional<BorderOfScale> border{};  ///< of an absolute tolerance: the finding of other cases ends there too
 };
 
 struct Tested {

@@ -169,9 +169,12 @@ class CauseSearch {
   bool is_over() const { return interrupted() || left().questions == 0 || left().time.count() <= 0; }
   void count(const Trials& trials) { cause_.questions += trials.questions(); }
 
-  /// Makes the tests again with other cases that have the finding. The evidence is that of the case that names a cause.
+  /// Makes the tests again with other cases that have the finding. Another case may be one of another bug: a second one
+  /// must name the same causes, and none before it others. The evidence is that of the first case that names a cause.
   std::vector<Named> named_from_others(const Case& question, AskedCases& asked) {
     std::size_t tried = 0;
+    std::vector<Named> first;
+    std::vector<Evidence> of_first;
     for (const Case& other : others(question, asked)) {
       if (is_over()) break;
       Trials trials(other, subject_, left(), workers_);
@@ -184,16 +187,28 @@ class CauseSearch {
       });
       count(trials), ++tried;
       if (named.empty()) continue;
+      if (first.empty()) {
+        first = std::move(named), of_first = std::move(evidence);
+        continue;
+      }
+      if (!are_same(first, named)) break;
       cause_.evidence.push_back(
           {"Another case with the same finding was taken in place of the case, which may be a limiting one.",
-           "The tests were made again, as follows."});
-      std::move(evidence.begin(), evidence.end(), std::back_inserter(cause_.evidence));
-      return named;
+           "The tests were made again, as follows. A second other case has the same cause."});
+      std::move(of_first.begin(), of_first.end(), std::back_inserter(cause_.evidence));
+      return first;
     }
     if (tried > 0)
       cause_.evidence.push_back({"Other cases with the same finding were taken in place of the case.",
-                                 fmt::format("The tests were made again with {}, and none passed.", tried)});
+                                 fmt::format("The tests were made again with {}, and {}.", tried,
+                                             first.empty() ? "none passed" : "no two have the same cause")});
     return {};
+  }
+  /// Causes of the same kinds with the same keys; a key may be missing in one.
+  static bool are_same(const std::vector<Named>& some, const std::vector<Named>& others) {
+    return std::equal(some.begin(), some.end(), others.begin(), others.end(), [](const Named& a, const Named& b) {
+      return a.kind == b.kind && (a.key == b.key || a.key.empty() || b.key.empty());
+    });
   }
   /// The plainest of the cases that were asked, and generated cases, the plainest first.
   std::vector<Case> others(const Case& question, AskedCases& asked) {

@@ -180,6 +180,31 @@ Contradiction is_lost_nearby(AskedCases& asked) {
                   fmt::format("{} are wrong: a border would leave half of them on its side.", same)};
 }
 
+/// The constant that ends the finding of other cases ends it here: for the same numbers, on the same side, and where
+/// the largest of them is as large as there, up to the factor by which the others differ, or by which lengths of one
+/// scene may.
+Contradiction ends_elsewhere(const BorderOfScale& border, AskedCases& asked) {
+  constexpr double lengths_of_a_scene = 0x1p10;
+  const auto& scans = asked.scans();
+  const auto s =
+      std::find_if(scans.begin(), scans.end(), [&](const ScaleScan& x) { return x.group->name == border.group; });
+  if (s == scans.end() || !s->flip) {
+    return Evidence{fmt::format("All {} of the case were multiplied by powers of two.", border.group),
+                    "The answer is right at no scale."};
+  }
+  const bool wrong_below = s->flip->right > s->flip->wrong;
+  const double largest = largest_of(asked.question(), *s->group) * std::exp2(s->flip->wrong);
+  const double factor = std::max(lengths_of_a_scene, border.high / border.low);
+  const bool is_near = largest <= factor * border.low && border.high <= factor * largest;
+  if (wrong_below == border.wrong_below && is_near) return std::nullopt;
+  return Evidence{
+      fmt::format("All {} of the case were multiplied by powers of two.", border.group),
+      fmt::format("Answers are wrong {} the border, where the largest of them is {:.2g}; in the other case, "
+                  "they are wrong {} one between {:.2g} and {:.2g}.",
+                  wrong_below ? "below" : "above", largest, border.wrong_below ? "below" : "above", border.low,
+                  border.high)};
+}
+
 struct Test {
   Prediction prediction;
   Contradiction (*contradiction)(AskedCases&);
@@ -198,13 +223,18 @@ constexpr std::array tests{Test{Prediction::at_every_scale, depends_on_scale},
 }  // namespace
 
 std::optional<Evidence> contradiction_of(const Named& cause, AskedCases& asked) {
+  const auto against = [&](Evidence found) {
+    found.result += fmt::format(" This speaks against the cause '{}'.", name_of(cause.kind));
+    return found;
+  };
+  if (cause.border) {
+    if (auto found = ends_elsewhere(*cause.border, asked)) return against(std::move(*found));
+  }
   for (const Test& test : tests) {
     const auto& made = cause.predictions;
     if (std::find(made.begin(), made.end(), test.prediction) == made.end()) continue;
     auto found = test.contradiction(asked);
-    if (!found) continue;
-    found->result += fmt::format(" This speaks against the cause '{}'.", name_of(cause.kind));
-    return found;
+    if (found) return against(std::move(*found));
   }
   return std::nullopt;
 }

@@ -66,24 +66,21 @@ Fits before_the_start(const Case& c, const Answer& a, const IsRight& is_right) {
   return std::isfinite(*earlier) && !c.query->broken(moved.values) ? Fits(is_right(moved, other)) : std::nullopt;
 }
 
-/// The place and the time, judged as those of the reversed motion that comes from beyond everything. Makes no
-/// difference where the contact begins and ends at one place, and where the place is right and another number is wrong.
+/// The place and the time, judged as those of the reversed motion that comes from beyond everything.
 Fits where_it_leaves(const Case& c, const Answer& a, const IsRight& is_right) {
   const auto motion = motion_numbers_of(c);
   if (!motion || !answers_yes(a) || c.query->traits.one_sided) return std::nullopt;
   const Layout::Part* place = given_part(c, a, Role::position);
   const Layout::Part* time = given_part(c, a, Role::time);
   const auto beyond = time_beyond_all(c, *motion);
-  if (place == nullptr || !beyond) return std::nullopt;
+  if (place == nullptr || !beyond || is_right(c, only(a, *place))) return std::nullopt;
   Case back = later(c, *motion, *beyond);
   for (std::size_t k = 0; k < 3; ++k) back.values[motion->way + k] = -c.values[motion->way + k];
   if (c.query->broken(back.values)) return std::nullopt;
   Answer other = a;
   other.given &= bits_of(*place) | (time == nullptr ? 0 : bits_of(*time));
   if (time != nullptr) other.values[time->begin] = *beyond - a.values[time->begin];
-  const bool fits = is_right(back, other), is_of_both = fits && is_right(c, only(a, *place));
-  const bool is_wrong_elsewhere = !fits && is_right(c, only(a, *place)) && !is_right(c, a);
-  return is_of_both || is_wrong_elsewhere ? std::nullopt : Fits(fits);
+  return is_right(back, other);
 }
 
 /// A wrong member has the value that belongs to another one of its kind.

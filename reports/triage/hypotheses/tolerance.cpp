@@ -152,6 +152,11 @@ class ToleranceSearch {
   }
   std::optional<Named> tolerance_in(const ScaleScan& s) {
     const std::vector<Flipped> flips = flips_of(s);
+    BorderOfScale border{s.group->name, s.flip->right > s.flip->wrong, INFINITY, 0};
+    for (const Flipped& f : flips) {
+      const double largest = largest_of(f.at_wrong, *s.group);
+      border.low = std::min(border.low, largest), border.high = std::max(border.high, largest);
+    }
     const auto best = constant_quantity(flips);
     saw(fmt::format("All {} were multiplied by powers of two, which changes no rounding.", s.group->name),
         fmt::format("The finding is there with 2^{}, and the answer is right with 2^{}{}. "
@@ -167,17 +172,13 @@ class ToleranceSearch {
     }
     constexpr std::size_t least = 3;
     if (flips.size() < least || !most(flips.size() - 1, similar_.size())) return std::nullopt;
-    if (best) return named_tolerance(*best, flips.size(), has_further_border(s));
+    if (best) return named_tolerance(*best, flips.size(), has_further_border(s), border);
     if (errs_to_both_sides_) {
       saw("Generated cases were asked.", "There are false hits and false misses: a tolerance errs to one side.",
           {CauseKind::absolute_tolerance, CauseKind::relative_tolerance});
       return std::nullopt;
     }
-    double low = INFINITY, high = 0;
-    for (const Flipped& f : flips) {
-      const double largest = largest_of(f.at_wrong, *s.group);
-      low = std::min(low, largest), high = std::max(high, largest);
-    }
+    const double low = border.low, high = border.high;
     saw("The flips of these cases were compared with sizes, distances, gaps, areas and times.",
         fmt::format(
             "No such quantity has the same value at every flip. The largest of the multiplied numbers is between "
@@ -189,7 +190,8 @@ class ToleranceSearch {
                  fmt::format("The answer depends on the scale of the {}: it flips where the largest of them is between "
                              "{:.2g} and {:.2g}. The subject compares something with a constant.",
                              s.group->name, low, high),
-                 {Prediction::one_border, Prediction::ends_at_a_scale, Prediction::one_side_nearby}};
+                 {Prediction::one_border, Prediction::ends_at_a_scale, Prediction::one_side_nearby},
+                 border};
   }
 
   /// Of the largest numbers at the flips. Lengths of ordinary cases differ by no more than about so much, and so do the
@@ -255,7 +257,8 @@ class ToleranceSearch {
     return best;
   }
   /// A constant that no one would write is a chance where the finding has another border.
-  std::optional<Named> named_tolerance(const Constant& q, std::size_t cases, bool has_further_border) {
+  std::optional<Named> named_tolerance(const Constant& q, std::size_t cases, bool has_further_border,
+                                       const BorderOfScale& border) {
     constexpr double error_of_estimates = 1.05, widest = 1.1;
     const double middle = std::sqrt(q.low * q.high);
     const int decade = int(std::lround(std::log10(middle)));
@@ -273,12 +276,14 @@ class ToleranceSearch {
       return Named{CauseKind::absolute_tolerance,
                    "",
                    "The subject compares something with a constant: no quantity is a round number at every flip.",
-                   {Prediction::one_border, Prediction::ends_at_a_scale, Prediction::one_side_nearby}};
+                   {Prediction::one_border, Prediction::ends_at_a_scale, Prediction::one_side_nearby},
+                   border};
     return Named{CauseKind::absolute_tolerance,
                  fmt::format("{} {}", is_round ? fmt::format("1e{}", decade) : stable_value(q.low, q.high), q.unit),
                  fmt::format("The subject has an absolute tolerance of about {:.2g} ({}) that {} is compared with.",
                              value, q.unit, q.name),
-                 {Prediction::one_border, Prediction::ends_at_a_scale, Prediction::one_side_nearby}};
+                 {Prediction::one_border, Prediction::ends_at_a_scale, Prediction::one_side_nearby},
+                 border};
   }
   const Case& question() const { return trials_.base().question; }
   void saw(std::string test, std::string result, std::vector<CauseKind> against = {}) {
