@@ -58,23 +58,24 @@ bool is_consistent(const Named& named, AskedCases& asked, std::vector<Evidence>&
   return !contradiction;
 }
 
-/// Whether the cause is a region in which the case does not lie, or a reading that does not explain its answer.
-bool is_not_of_case(const Named& named, const AskedCases& asked) {
+/// Whether the case lies in the region, or its answer is explained by the reading, that is the cause; empty where the
+/// cause is neither.
+std::optional<bool> is_of_case(const Named& named, const AskedCases& asked) {
   const Case& c = asked.question();
   bool is_known = false;
   for (const Region& region : regions_of(*c.query)) {
     if (region.name != named.key) continue;
-    if (region.has(c)) return false;
+    if (region.has(c)) return true;
     is_known = true;
   }
   for (const auto readings : {readings(), readings_of_answers()}) {
     for (const Reading& reading : readings) {
       if (reading.name != named.key) continue;
-      if (reading.right(c, asked.trials().base().answer, asked.is_right()).value_or(false)) return false;
+      if (reading.right(c, asked.trials().base().answer, asked.is_right()).value_or(false)) return true;
       is_known = true;
     }
   }
-  return is_known;
+  return is_known ? std::optional(false) : std::nullopt;
 }
 
 /// The causes of one case.
@@ -170,7 +171,9 @@ class CauseSearch {
   void count(const Trials& trials) { cause_.questions += trials.questions(); }
 
   /// Makes the tests again with other cases that have the finding. Another case may be one of another bug: a second one
-  /// must name the same causes, and none before it others. The evidence is that of the first case that names a cause.
+  /// must name the same causes, and none before it others. One is enough for a region of the case, and for a reading
+  /// that explains its answer: generated cases are their evidence. Told is the evidence of the first case that names a
+  /// cause.
   std::vector<Named> named_from_others(const Case& question, AskedCases& asked) {
     std::size_t tried = 0;
     std::vector<Named> first;
@@ -183,18 +186,20 @@ class CauseSearch {
       std::vector<Named> named = CausesOfCase(of_other, evidence).result();
       // What the other case shows must hold for the case, too: the other may be one of another bug.
       std::erase_if(named, [&](const Named& n) {
-        return asked.is_refuted(n.key) || is_not_of_case(n, asked) || contradiction_of(n, asked);
+        return asked.is_refuted(n.key) || !is_of_case(n, asked).value_or(true) || contradiction_of(n, asked);
       });
       count(trials), ++tried;
       if (named.empty()) continue;
-      if (first.empty()) {
-        first = std::move(named), of_first = std::move(evidence);
-        continue;
-      }
-      if (!are_same(first, named)) break;
+      const bool is_first = first.empty();
+      if (is_first) first = std::move(named), of_first = std::move(evidence);
+      const bool are_linked =
+          std::all_of(first.begin(), first.end(), [&](const Named& n) { return is_of_case(n, asked).value_or(false); });
+      if (is_first && !are_linked) continue;
+      if (!is_first && !are_same(first, named)) break;
       cause_.evidence.push_back(
           {"Another case with the same finding was taken in place of the case, which may be a limiting one.",
-           "The tests were made again, as follows. A second other case has the same cause."});
+           fmt::format("The tests were made again, as follows.{}",
+                       is_first ? "" : " A second other case has the same cause.")});
       std::move(of_first.begin(), of_first.end(), std::back_inserter(cause_.evidence));
       return first;
     }

@@ -48,7 +48,7 @@ class ErrorShare : public TestOfCause {
     constexpr double least = 0x1p-36;
     if (!stays_in_every_rounding() || !is_same_at_every_scale() || !stays_nearby()) return std::nullopt;
     const double largest = largest_error();
-    if (largest <= most_share_without_logic()) asked_.set_small_errors();
+    if (largest <= most_share_without_logic() || share_of(trials().base()) <= most_share) asked_.set_small_errors();
     if (largest > most_share || largest < least || asked_.roundings().empty()) return std::nullopt;
     // A search along a motion that ends too early has small errors too.
     if (!trials().query().operands.velocities.empty()) return std::nullopt;

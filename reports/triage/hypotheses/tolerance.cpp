@@ -185,6 +185,11 @@ class ToleranceSearch {
             "{:.2g} and {:.2g} there.",
             low, high));
     if (high > widest_flips * low || has_further_border(s)) return std::nullopt;
+    if (!border.wrong_below) {
+      saw("The side of the wrong answers was compared with that of a tolerance, which weighs more for smaller numbers.",
+          "The answer is wrong for larger numbers: an unknown constant is not its cause.");
+      return std::nullopt;
+    }
     return Named{CauseKind::absolute_tolerance,
                  "",
                  fmt::format("The answer depends on the scale of the {}: it flips where the largest of them is between "
@@ -271,7 +276,7 @@ class ToleranceSearch {
         fmt::format("At each flip {} is between {:.3g} and {:.3g}, while it differs by a factor of {:.3g} between the "
                     "cases.",
                     q.name, q.low, q.high, q.spread));
-    if (!is_written && has_further_border) return std::nullopt;
+    if (!is_written && (has_further_border || !border.wrong_below)) return std::nullopt;
     if (!is_written)
       return Named{CauseKind::absolute_tolerance,
                    "",

@@ -70,7 +70,8 @@ class Unsupported : public TestOfCause {
     return proved_at_least(same, all) <= may_be;
   }
   /// Where the subject leaves out a region, nearly all answers inside are wrong. It is no cause where fewer are, with
-  /// the exact decision of the case, by the bound of Clopper and Pearson: something else tells them apart.
+  /// the exact decision of the case, by the bound of Clopper and Pearson: something else tells them apart. As none is
+  /// wrong outside, a mistake of logic cannot be told from what else is particular inside.
   bool may_be_left_out(const Region& region, std::span<const Trial> in) {
     std::size_t all = count_answered(in), wrong = all - count(in, Outcome::right);
     for (const auto* list : {&asked_.sample(), &asked_.fresh()}) {
@@ -81,7 +82,7 @@ class Unsupported : public TestOfCause {
     }
     if (proved_at_most(wrong, all) >= share_of_nearly_all) return true;
     saw(fmt::format("All generated cases with {} were counted.", region.name),
-        fmt::format("{} are wrong: the region alone does not tell which.", of_text(wrong, all)));
+        fmt::format("{} are wrong: the region alone does not tell which.", of_text(wrong, all)), {CauseKind::logic});
     return false;
   }
   static Named always_wrong(const Region& region) {
