@@ -170,44 +170,57 @@ class CauseSearch {
   bool is_over() const { return interrupted() || left().questions == 0 || left().time.count() <= 0; }
   void count(const Trials& trials) { cause_.questions += trials.questions(); }
 
-  /// Makes the tests again with other cases that have the finding. Another case may be one of another bug: a second one
-  /// must name the same causes, and none before it others. One is enough for a region of the case, and for a reading
-  /// that explains its answer: generated cases are their evidence. Told is the evidence of the first case that names a
-  /// cause.
+  /// What the tests found with another case.
+  struct OfOther {
+    std::vector<Named> named;
+    std::vector<Evidence> evidence;
+  };
+  /// Makes the tests again with other cases that have the finding. Another case may be one of another bug. A region of
+  /// the case, or a reading that explains its answer, is named: generated cases are the evidence of both. Of other
+  /// causes, a second other case must have the same, and none before it another.
   std::vector<Named> named_from_others(const Case& question, AskedCases& asked) {
     std::size_t tried = 0;
-    std::vector<Named> first;
-    std::vector<Evidence> of_first;
+    std::optional<OfOther> first;
+    bool do_agree = true;
     for (const Case& other : others(question, asked)) {
       if (is_over()) break;
-      Trials trials(other, subject_, left(), workers_);
-      AskedCases of_other(trials);
-      std::vector<Evidence> evidence;
-      std::vector<Named> named = CausesOfCase(of_other, evidence).result();
-      // What the other case shows must hold for the case, too: the other may be one of another bug.
-      std::erase_if(named, [&](const Named& n) {
-        return asked.is_refuted(n.key) || !is_of_case(n, asked).value_or(true) || contradiction_of(n, asked);
-      });
-      count(trials), ++tried;
-      if (named.empty()) continue;
-      const bool is_first = first.empty();
-      if (is_first) first = std::move(named), of_first = std::move(evidence);
-      const bool are_linked =
-          std::all_of(first.begin(), first.end(), [&](const Named& n) { return is_of_case(n, asked).value_or(false); });
-      if (is_first && !are_linked) continue;
-      if (!is_first && !are_same(first, named)) break;
-      cause_.evidence.push_back(
-          {"Another case with the same finding was taken in place of the case, which may be a limiting one.",
-           fmt::format("The tests were made again, as follows.{}",
-                       is_first ? "" : " A second other case has the same cause.")});
-      std::move(of_first.begin(), of_first.end(), std::back_inserter(cause_.evidence));
-      return first;
+      OfOther found = of_other(other, asked);
+      ++tried;
+      if (found.named.empty()) continue;
+      if (is_linked(found.named, asked)) return told(std::move(found), "");
+      if (first && do_agree && are_same(first->named, found.named))
+        return told(std::move(*first), " A second other case has the same cause.");
+      if (first) do_agree = false;
+      if (!first) first = std::move(found);
     }
     if (tried > 0)
       cause_.evidence.push_back({"Other cases with the same finding were taken in place of the case.",
                                  fmt::format("The tests were made again with {}, and {}.", tried,
-                                             first.empty() ? "none passed" : "no two have the same cause")});
+                                             first ? "no two have the same cause" : "none passed")});
     return {};
+  }
+  /// What another case shows must hold for the case, too.
+  OfOther of_other(const Case& other, AskedCases& asked) {
+    Trials trials(other, subject_, left(), workers_);
+    AskedCases of_other(trials);
+    OfOther found;
+    found.named = CausesOfCase(of_other, found.evidence).result();
+    std::erase_if(found.named, [&](const Named& n) {
+      return asked.is_refuted(n.key) || !is_of_case(n, asked).value_or(true) || contradiction_of(n, asked);
+    });
+    count(trials);
+    return found;
+  }
+  static bool is_linked(const std::vector<Named>& named, const AskedCases& asked) {
+    return std::all_of(named.begin(), named.end(),
+                       [&](const Named& n) { return is_of_case(n, asked).value_or(false); });
+  }
+  std::vector<Named> told(OfOther found, std::string_view more) {
+    cause_.evidence.push_back(
+        {"Another case with the same finding was taken in place of the case, which may be a limiting one.",
+         fmt::format("The tests were made again, as follows.{}", more)});
+    std::move(found.evidence.begin(), found.evidence.end(), std::back_inserter(cause_.evidence));
+    return std::move(found.named);
   }
   /// Causes of the same kinds with the same keys; a key may be missing in one.
   static bool are_same(const std::vector<Named>& some, const std::vector<Named>& others) {
