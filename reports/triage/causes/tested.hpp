@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reports/triage/causes/cause.hpp"
+#include "reports/triage/causes/shares.hpp"
 
 namespace nearmiss {
 
@@ -49,6 +50,8 @@ struct Tested {
 /// 9 of 10.
 constexpr double share_of_nearly_all = 0.9;
 inline bool nearly_all(std::size_t part, std::size_t all) { return all > 0 && 10 * part >= 9 * all; }
+/// It is proved that more than half of all have what this part of a sample has: of five cases, all.
+inline bool proved_of_most(std::size_t part, std::size_t all) { return proved_at_least(part, all) > 0.5; }
 /// 3 of 4.
 inline bool most(std::size_t part, std::size_t all) { return all > 0 && 4 * part >= 3 * all; }
 

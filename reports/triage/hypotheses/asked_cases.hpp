@@ -62,7 +62,7 @@ class AskedCases {
   /// What the test of the rounding modes saw, for the tests behind it.
   struct RoundingSeen {
     bool may_round = true;      ///< the errors differ of cases a few ulps away, as rounding errors do
-    bool others_depend = true;  ///< half of the other cases with the finding depend on the rounding mode
+    bool others_depend = true;  ///< most of the other cases with the finding depend on the rounding mode
   };
   const RoundingSeen& rounding_seen() const { return rounding_seen_; }
   /// A tolerance whose value is unknown, which the test of the rounding modes may still tell from rounding errors.

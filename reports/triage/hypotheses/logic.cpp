@@ -16,7 +16,7 @@ class Logic : public TestOfCause {
   std::optional<Named> named() {
     const bool no_flip = std::none_of(asked_.scans().begin(), asked_.scans().end(),
                                       [](const ScaleScan& s) { return s.has_clean_flip(); });
-    if (asked_.has_small_errors() || !stays_beside_zeros()) return std::nullopt;
+    if (asked_.has_small_errors() || !stays_beside_zeros() || !is_of_several()) return std::nullopt;
     if (asked_.is_exact() && no_flip)
       return Named{CauseKind::logic,
                    "",
@@ -56,6 +56,15 @@ class Logic : public TestOfCause {
   /// With the finding, or with another.
   static std::size_t wrong_of(std::span<const Trial> trials) {
     return count(trials, Outcome::same) + count(trials, Outcome::other);
+  }
+  /// A finding of the case and those nearby alone may be that of a limiting case: so many others must have it that most
+  /// of them could be proved to have the same cause.
+  bool is_of_several() {
+    const std::size_t others = count(asked_.similar(), Outcome::same) + count(asked_.sample(), Outcome::same);
+    if (proved_of_most(others, others)) return true;
+    saw("Other cases with the finding were counted.",
+        fmt::format("There are {}: too few for a mistake of logic.", others));
+    return false;
   }
   /// Two thirds of the cases are wrong in which each zero, at random, is a small number: the finding is none of a
   /// limiting case. Where it needs one of the zeros, half are wrong.

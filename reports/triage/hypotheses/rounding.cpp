@@ -124,7 +124,7 @@ class RoundingErrors : public TestOfCause {
             "error.",
             same, right, 100 * moved));
     const bool depends = (right > 0 && may_round) || moved >= least_moved;
-    others_depend_ = holds_for_others(depends);
+    others_depend_ = hold_for_others();
     const bool may_be_named = depends || (asked_.is_wrong_decision() && may_round);
     if (!others_depend_ || !may_be_named) return std::nullopt;
     is_right_by_rounding_ = right > 0 || count(asked_.neighbours(), Outcome::right) > 0;
@@ -142,22 +142,22 @@ class RoundingErrors : public TestOfCause {
     if (!most_depend_ || !is_right_by_rounding_) made.push_back(Prediction::small_error);
     return made;
   }
-  /// Whether half of the other cases with the finding depend on the rounding mode too. A case on a border depends on it
+  /// Whether most of the other cases with the finding depend on the rounding mode too. A case on a border depends on it
   /// by chance.
-  bool holds_for_others(bool case_depends) {
+  bool hold_for_others() {
     std::size_t all = 0, depend = 0;
     for (std::size_t i = 0; i < asked_.similar_roundings().size(); ++i)
       all += 1, depend += depends_on_rounding(asked_.similar()[i], asked_.similar_roundings()[i]);
     saw("The other cases with the finding were asked in the four rounding modes.",
         fmt::format("{} of them are right in another mode, or their error changes.", of_text(depend, all)));
     most_depend_ = all >= least_others && most(depend, all);
-    return all < least_others ? case_depends : 2 * depend >= all;
+    return proved_of_most(depend, all);
   }
   bool depends_on_rounding(const Trial& base, std::span<const Trial> asked) const {
     return count(asked, Outcome::right) > 0 || moved_by_rounding(base, asked) >= least_moved;
   }
 
-  /// Behind pipes, the last bits of the inputs stand for the rounding modes: whether half of the other cases with the
+  /// Behind pipes, the last bits of the inputs stand for the rounding modes: whether most of the other cases with the
   /// finding have a right answer nearby. A case on a border has one by chance.
   bool are_others_unstable() {
     constexpr std::size_t most_others = 8, of_each = 8;
@@ -176,7 +176,7 @@ class RoundingErrors : public TestOfCause {
     }
     saw("Cases were asked that are a few ulps away from other cases with the finding.",
         fmt::format("{} of these others have a right answer nearby.", of_text(unstable, all)));
-    return 2 * unstable >= all;
+    return proved_of_most(unstable, all);
   }
 
   /// Exactly moved toward the origin, in steps that halve the distance.

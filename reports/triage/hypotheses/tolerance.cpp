@@ -170,8 +170,8 @@ class ToleranceSearch {
           {CauseKind::absolute_tolerance});
       return std::nullopt;
     }
-    constexpr std::size_t least = 3;
-    if (flips.size() < least || !most(flips.size() - 1, similar_.size())) return std::nullopt;
+    const std::size_t others = flips.size() - 1;
+    if (!proved_of_most(others, similar_.size()) || !most(others, similar_.size())) return std::nullopt;
     if (best) return named_tolerance(*best, flips.size(), has_further_border(s), border);
     if (errs_to_both_sides_) {
       saw("Generated cases were asked.", "There are false hits and false misses: a tolerance errs to one side.",

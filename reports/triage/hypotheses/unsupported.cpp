@@ -69,17 +69,23 @@ class Unsupported : public TestOfCause {
     constexpr double may_be = double(most_outside) / of_each_side;
     return proved_at_least(same, all) <= may_be;
   }
+  /// The decision is not the exact one, but too near to a touch for a proof.
+  static bool is_undecided(const Trial& t) {
+    return t.outcome == Outcome::right && t.answer.status == Answer::Status::answered &&
+           t.answer.yes != t.finding.truth_yes;
+  }
   /// Where the subject leaves out a region, nearly all answers inside are wrong. It is no cause where fewer are, with
   /// the exact decision of the case, by the bound of Clopper and Pearson: something else tells them apart. As none is
   /// wrong outside, a mistake of logic cannot be told from what else is particular inside.
   bool may_be_left_out(const Region& region, std::span<const Trial> in) {
-    std::size_t all = count_answered(in), wrong = all - count(in, Outcome::right);
-    for (const auto* list : {&asked_.sample(), &asked_.fresh()}) {
-      for (const Trial& t : *list) {
-        const bool is_alike = t.outcome != Outcome::none && t.finding.truth_yes == trials().base().finding.truth_yes;
-        if (is_alike && region.has(t.question)) ++all, wrong += t.outcome != Outcome::right;
-      }
-    }
+    std::size_t all = 0, wrong = 0;
+    const auto see = [&](const Trial& t) {
+      if (t.outcome == Outcome::none || t.finding.truth_yes != trials().base().finding.truth_yes) return;
+      if (!region.has(t.question) || is_undecided(t)) return;
+      ++all, wrong += t.outcome != Outcome::right;
+    };
+    std::for_each(in.begin(), in.end(), see);
+    for (const auto* list : {&asked_.sample(), &asked_.fresh()}) std::for_each(list->begin(), list->end(), see);
     if (proved_at_most(wrong, all) >= share_of_nearly_all) return true;
     saw(fmt::format("All generated cases with {} were counted.", region.name),
         fmt::format("{} are wrong: the region alone does not tell which.", of_text(wrong, all)), {CauseKind::logic});
