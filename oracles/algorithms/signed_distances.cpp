@@ -5,6 +5,8 @@
 /// normals of a face that is common to them. With a normal n the nearest points c1 and c2 of the cores are any points
 /// of theirs with c2 - c1 = gap n, so c1 lies in the common part of a feature of the first and of the moved one of the
 /// second: a polygon, or less. The radii move the points along n.
+#include <algorithm>
+
 #include "impl/catalogue/queries/grid.hpp"
 #include "oracles/algorithms/near_points.hpp"
 #include "oracles/algorithms/rounded_polytopes.hpp"
@@ -188,10 +190,22 @@ void report_along(const ExactCore& a, const ExactCore& b, const ExactVector& dir
   });
 }
 
-/// The cores meet in these corners, but no volume is common to them: each normal of a cone is right, with each common
-/// point.
+/// The ends of points on one line, in the order of the points. Of two points or less, these.
+std::vector<ExactVector> ends_of(const std::vector<ExactVector>& on_line) {
+  if (on_line.size() < 3) return on_line;
+  const ExactVector along = minus(on_line[1], on_line[0]);
+  const auto is_before = [&](const ExactVector& x, const ExactVector& y) {
+    return may_be_less(dot(along, x), dot(along, y));
+  };
+  const auto [first, last] = std::minmax_element(on_line.begin(), on_line.end(), is_before);
+  return first < last ? std::vector{*first, *last} : std::vector{*last, *first};
+}
+
+/// The cores meet in a point or a segment, on which these points of a line are: each normal of a cone is right, with
+/// each common point.
 template <class Out>
-void report_touch(const ExactCore& a, const ExactCore& b, const std::vector<ExactVector>& corners, Out& out) {
+void report_touch(const ExactCore& a, const ExactCore& b, const std::vector<ExactVector>& common, Out& out) {
+  const std::vector<ExactVector> corners = ends_of(common);
   Normals<Exact> normals = Normals<Exact>::any();
   const auto add = [&normals](const ExactVector& way) {
     if (!surely_zero(norm2(way))) normals.facing.push_back({way, 0, 1});
