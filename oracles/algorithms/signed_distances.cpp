@@ -190,7 +190,7 @@ void report_along(const ExactCore& a, const ExactCore& b, const ExactVector& dir
   });
 }
 
-/// The ends of points on one line, in the order of the points. Of two points or less, these.
+/// The ends of points on one line, in the order of the points. Of at most two points, these.
 std::vector<ExactVector> ends_of(const std::vector<ExactVector>& on_line) {
   if (on_line.size() < 3) return on_line;
   const ExactVector along = minus(on_line[1], on_line[0]);

@@ -350,7 +350,7 @@ COLLIDE_BATCH_FUNCTION WideUnit<T> normal_of(const WideWay<T, of_a, of_b>& way, 
   return normal;
 }
 
-/// The signed distance of cores that are no further from the origin than the numbers' range allows.
+/// Writes the signed distance of two cores, which are relative to the origin. Returns a mask of the answered lanes.
 template <class T, std::size_t of_a, std::size_t of_b>
 COLLIDE_BATCH_FUNCTION Wide<T> signed_distance(const WideCore<T, of_a>& a, const WideCore<T, of_b>& b,
                                                const WideVec3<T>& origin, Writer<T>& out) {
