@@ -1,7 +1,8 @@
 /// The derivation of the grid's overlaps and signed distances: the point of the Minkowski difference of the cores that
 /// is nearest to the origin, by the algorithm of Wolfe (Finding the nearest point in a polytope, Mathematical
 /// Programming 11, 1976) in rationals; where the origin is inside, the nearest of the planes through three vertices.
-/// Unlike the oracle it finds points of the difference, and looks for no direction that separates.
+/// Unlike the oracle it finds points of the difference, and looks for no direction that separates. The same of casts
+/// against a half-space, by two heights.
 #include <algorithm>
 #include <bitset>
 #include <optional>
@@ -353,6 +354,112 @@ Reference reference_signed_distance(Reader r) {
   return reference;
 }
 
+Body moved(Body body, const V& way) {
+  for (V& v : body.vertices) v = add(v, way);
+  return body;
+}
+
+/// Whether the first body was inside the second one just before: no vertex passes a face within so short a time.
+bool leaves_inside(const Body& a, const V& velocity, const Body& b) {
+  const Q moment = Q(1) / Q(mpz_class(1) << 4096);
+  return !planes_around_origin(Difference(moved(a, scaled(velocity, -moment)), b).all).empty();
+}
+
+/// The squared distance of the line of motion from the difference: that of the shadows along it.
+Q distance2_of_line(const Difference& d, const V& velocity) {
+  std::vector<V> shadow;
+  const Q speed2 = square_of(velocity);
+  for (const V& x : d.all) shadow.push_back(add(x, velocity, -dot(x, velocity) / speed2));
+  return square_of(nearest_to_origin(shadow).sum());
+}
+
+/// A number of at most so many bits, not above x.
+Q rounded_down(const Q& x) {
+  constexpr unsigned bits = 400;
+  const mpz_class unit = mpz_class(1) << bits;
+  mpz_class whole;
+  mpz_fdiv_q(whole.get_mpz_t(), mpz_class(x.get_num() * unit).get_mpz_t(), x.get_den().get_mpz_t());
+  return Q(whole, unit);
+}
+
+/// Steps as long as the gap along the nearest points' direction allows, from before the contact: exact ones of bodies
+/// without radii, which end, else until they are too short to matter. Where the line of motion only touches, the steps
+/// get shorter slowly: then only the decision is known.
+template <Body (*read_first)(Reader&), Body (*read_second)(Reader&)>
+Reference reference_cast(Reader r) {
+  const Body a = read_first(r);
+  const V velocity = r.vector();
+  const Body b = read_second(r);
+  const Difference start(a, b);
+  const Q radii = a.radius + b.radius, radii2 = radii * radii;
+  Combination c = nearest_to_origin(start.all);
+  if (square_of(c.sum()) < radii2) return yes(Q(0));
+  if (radii == 0 && square_of(c.sum()) == 0 && !planes_around_origin(start.all).empty()) return yes(Q(0));
+  if (square_of(c.sum()) == radii2) {
+    const bool leaves = radii > 0 ? dot(c.sum(), velocity) < 0 : leaves_inside(a, velocity, b);
+    return leaves ? no() : yes(Q(0));
+  }
+  if (dot(c.sum(), velocity) <= 0) return no();
+  const Q line2 = distance2_of_line(start, velocity);
+  if (line2 > radii2) return no();
+  if (line2 == radii2 && radii > 0) return {true, {}};
+  Q time = 0;
+  const Q least = Q(1) / Q(mpz_class(1) << 300);
+  while (true) {
+    const Body then = moved(a, scaled(velocity, time));
+    const Difference d(then, b);
+    c = nearest_to_origin(d.all);
+    const V way = c.sum();
+    const Q along = dot(way, velocity);
+    if (square_of(way) <= radii2 || along <= 0) break;
+    if (radii == 0) {
+      time += square_of(way) / along;
+      continue;
+    }
+    const R distance = length(way);
+    const Q step = rounded_down(Q(R((distance - real(radii)) * distance / real(along))));
+    if (step <= least * (time + step)) break;
+    time = rounded_down(Q(time + step));
+  }
+  Reference reference = yes(time);
+  V on_b{};
+  const Difference d(moved(a, scaled(velocity, time)), b);
+  for (std::size_t i = 0; i < c.points.size(); ++i) on_b = add(on_b, d.of_b[c.numbers[i]], c.weights[i]);
+  if (radii == 0) {
+    reference.give(on_b);
+    return reference;
+  }
+  const V way = c.sum();
+  const R distance = length(way);
+  for (int k = 0; k < 3; ++k) reference.give(R(real(on_b[k]) - real(b.radius) * real(way[k]) / distance));
+  reference.give_unit(scaled(way, -1));
+  return reference;
+}
+
+/// The height of a lowest point at the times 0 and 1 gives the line that it follows.
+template <Body (*read_first)(Reader&), HalfSpace (*read_second)(Reader&)>
+Reference reference_cast(Reader r) {
+  const Body a = read_first(r);
+  const V velocity = r.vector();
+  const HalfSpace b = read_second(r);
+  const std::vector<V> lowest = lowest_of(a, b);
+  const V from = r.choose.is_free() ? r.choose.between(lowest) : lowest.front();
+  const Q now = b.height(from), later = b.height(add(from, velocity, 1));
+  const R norm = length(b.normal), gap = real(now) / norm - real(a.radius);
+  const Q reach2 = a.radius * a.radius * square_of(b.normal);
+  const bool overlaps = now < 0 || now * now < reach2, touches = !overlaps && now * now == reach2;
+  const auto hit = [&](const R& time, const R& down) {
+    Reference reference = yes(time);
+    for (int k = 0; k < 3; ++k)
+      reference.give(R(real(from[k]) + time * real(velocity[k]) - down * real(b.normal[k]) / norm));
+    reference.give_unit(b.normal);
+    return reference;
+  };
+  if (overlaps || (touches && later <= now)) return hit(R(real(Q(0))), R(real(now) / norm));
+  if (touches || later >= now) return no();
+  return hit(R(gap * norm / real(Q(now - later))), R(real(a.radius)));
+}
+
 }  // namespace
 
 std::span<const Derived> of_grid() {
@@ -361,6 +468,7 @@ std::span<const Derived> of_grid() {
   {#first "_" #second "_overlap", &reference_overlap<&read_##first, &read_##second>},
 #define NEARMISS_SIGNED_DISTANCE(first, second) \
   {#first "_" #second "_signed_distance", &reference_signed_distance<&read_##first, &read_##second>},
+#define NEARMISS_CAST_AS(query, first, second) {#query, &reference_cast<&read_##first, &read_##second>},
 #include "impl/catalogue/grid.def"
   };
   return all;
