@@ -47,6 +47,10 @@
 #include <collide/moving_point_plane.hpp>
 #include <collide/moving_point_rectangle.hpp>
 #include <collide/moving_point_segment.hpp>
+#include <collide/moving_point_span_aabox.hpp>
+#include <collide/moving_point_span_box.hpp>
+#include <collide/moving_point_span_capsule.hpp>
+#include <collide/moving_point_span_sphere.hpp>
 #include <collide/moving_point_sphere.hpp>
 #include <collide/moving_point_triangle.hpp>
 #include <collide/moving_point_triangle_prepared.hpp>
