@@ -34,21 +34,23 @@ int answers_about(const Query& query) {
 double rounded_to(Scalar s, double x) { return s == Scalar::float32 ? double(float(x)) : x; }
 
 /// An answer with the first numbers of the reference. Empty if a number is beyond the scalar's range, or if a time is
-/// at the end of the range: a time beyond the largest number is a miss, and the truncated reference cannot tell the two
-/// apart.
+/// at the end of the range: a first time beyond the largest number is a miss, a later one is infinite, and the
+/// truncated reference cannot tell the two apart.
 std::optional<Answer> answer_of(const Query& query, Scalar scalar, const Reference& reference) {
   Answer a;
   a.yes = reference.yes;
   a.given = 0;
+  const Layout::Part* first_time = query.layout.at(Role::time);
   for (std::size_t i = 0; i < reference.values.size(); ++i) {
-    if (query.outputs[i].role == Role::time && reference.values[i] >= largest_finite(scalar)) {
-      if (reference.values[i] == largest_finite(scalar)) return std::nullopt;
+    const bool is_late = query.outputs[i].role == Role::time && reference.values[i] >= largest_finite(scalar);
+    if (is_late && reference.values[i] == largest_finite(scalar)) return std::nullopt;
+    if (is_late && i == first_time->begin) {
       Answer miss;
       miss.given = 0;
       return miss;
     }
-    a.values[i] = rounded_to(scalar, reference.values[i]);
-    if (!std::isfinite(a.values[i])) return std::nullopt;
+    a.values[i] = is_late ? HUGE_VAL : rounded_to(scalar, reference.values[i]);
+    if (!is_late && !std::isfinite(a.values[i])) return std::nullopt;
     a.given |= std::uint64_t{1} << i;
   }
   return a;

@@ -551,16 +551,48 @@ void moving_point_aabox(Inputs in, Liar& out) {
   constexpr std::size_t location = 1, time = 4;  // after the flag
   entering(m, in.aabox(), time, location, out);
 }
+/// Whether a moving point certainly starts deep in a box, is deep in it at the time `about`, or crosses it.
+struct PassageOfBox {
+  bool starts_in = false, is_in = false, crosses = false;
+};
+PassageOfBox passage_of_box(const Motion& m, const Body& box, Real about) {
+  return {box.depth(m.from.at) > box.slack + m.from.slack,
+          box.depth(m.at(about)) > box.slack + m.from.slack + about * m.velocity.slack, surely_crosses(m, box)};
+}
+/// The last time within the bounds of the body, at least where the point is certainly in it at the time `about`.
+void last_time(const Motion& m, const Body& fixed, Real about, std::size_t leaf, Liar& out) {
+  const Real speed = bodies::length(m.velocity.at) - m.velocity.slack;
+  const Real way = bodies::length(minus(fixed.middle(), m.from.at)) + fixed.size() + fixed.radius + fixed.slack;
+  const Real by = (way + m.from.slack) / std::max<Real>(speed, 0);
+  if (out.is_a_time(by)) out.within(Topic::time, leaf, about, by, 0, true, 0);
+}
+template <Body (Inputs::*fixed)()>
+void span(Inputs in, Liar& out) {
+  constexpr std::size_t enter = 0, exit = 1;
+  const Motion m = in.moving_point();
+  const Body body = (in.*fixed)();
+  const Passage p = passage_of(m, body);
+  if (p.surely_never) return out.surely(false);
+  Real by = p.surely_start_overlapping ? 0 : p.by;
+  bool meets = p.surely_meet || p.surely_start_overlapping;
+  if (body.is_box()) {
+    const Real about = time_of_least_distance(m, body, infinite);
+    const PassageOfBox passage = passage_of_box(m, body, about);
+    meets = passage.starts_in || passage.is_in || passage.crosses;
+    by = passage.starts_in ? 0 : passage.is_in ? about : leaves_flat_box_by(m, body);
+  }
+  if (!meets || !out.is_a_time(by)) return;
+  out.surely(true);
+  out.within(Topic::time, enter, by > 0 ? p.not_before : 0, by, 0, true, 0);
+  last_time(m, body, by > 0 ? p.not_before : 0, exit, out);
+}
 void ray_aabox(Inputs in, Liar& out) {
   const Motion m = in.moving_point();
   const Body box = in.aabox();
   const Passage p = passage_of(m, box);
   if (p.surely_never) return out.surely(false);
-  const Real about = time_of_least_distance(m, box, infinite);
-  const bool starts_in = box.depth(m.from.at) > box.slack + m.from.slack;
-  const bool enters =
-      box.depth(m.at(about)) > box.slack + m.from.slack + about * m.velocity.slack || surely_crosses(m, box);
-  if (!starts_in && !enters) return;
+  const auto [starts_in, is_in, crosses] = passage_of_box(m, box, time_of_least_distance(m, box, infinite));
+  if (!starts_in && !is_in && !crosses) return;
   out.surely(true);
   constexpr std::size_t location = 1;  // after the flag
   contact_place(m, box, 0, starts_in ? 0 : leaves_flat_box_by(m, box), location, out);
@@ -950,6 +982,10 @@ constexpr Known known[] = {
     {QueryId::moving_point_box, moving_point_past<&Inputs::box>},
     {QueryId::moving_point_aabox, moving_point_aabox},
     {QueryId::ray_aabox, ray_aabox},
+    {QueryId::moving_point_span_sphere, span<&Inputs::sphere>},
+    {QueryId::moving_point_span_capsule, span<&Inputs::capsule>},
+    {QueryId::moving_point_span_box, span<&Inputs::box>},
+    {QueryId::moving_point_span_aabox, span<&Inputs::aabox>},
     {QueryId::moving_sphere_plane, moving_sphere_plane},
     {QueryId::moving_sphere_triangle, moving_sphere_triangle},
     {QueryId::moving_sphere_rectangle, moving_sphere_rectangle},
