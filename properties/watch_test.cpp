@@ -12,6 +12,7 @@
 
 #include "corpus/generator/generator.hpp"
 #include "corpus/storage/codec.hpp"
+#include "oracles/motion_numbers.hpp"
 #include "properties/derivation.hpp"
 #include "properties/judge/families.hpp"
 #include "properties/support.hpp"
@@ -40,11 +41,10 @@ std::optional<Answer> answer_of(const Query& query, Scalar scalar, const Referen
   Answer a;
   a.yes = reference.yes;
   a.given = 0;
-  const Layout::Part* first_time = query.layout.at(Role::time);
   for (std::size_t i = 0; i < reference.values.size(); ++i) {
     const bool is_late = query.outputs[i].role == Role::time && reference.values[i] >= largest_finite(scalar);
     if (is_late && reference.values[i] == largest_finite(scalar)) return std::nullopt;
-    if (is_late && i == first_time->begin) {
+    if (is_late && !is_time_of_leaving(query, i)) {
       Answer miss;
       miss.given = 0;
       return miss;

@@ -17,7 +17,13 @@ Times<N> times_in_tube(const Vector<N>& from, const Vector<N>& step, const Vecto
   const N a = norm2(step_d), reach2 = square(radius);
   const Times<N> beside = times_within_roots(a, N(-dot(from_d, step_d)), N(norm2(from_d) - reach2 * length2),
                                              N(length2 * (a * reach2 - square(dot(d, cross(from, step))))));
-  return both(beside, times_between(N(dot(d, from)), N(dot(d, step)), N(0), length2));
+  Times<N> times = both(beside, times_between(N(dot(d, from)), N(dot(d, step)), N(0), length2));
+  if constexpr (is_enclosure<N>) {  // the tube lies in a ball about an end; tightens only short tubes
+    const bool may_be_none = times.may_be_none;
+    times = both(times, times_in_ball(from, step, N(radius + root(length2))));
+    if (times.may_be_some) times.may_be_none = may_be_none;
+  }
+  return times;
 }
 
 }  // namespace
