@@ -38,8 +38,8 @@ double inner_radius(const Case& c) {
   return least;
 }
 
-/// A point or another body without thickness that only touches may slide along a small solid and move away from a larger
-/// one.
+/// A point or another body without thickness that only touches may slide along a small solid and move away from a
+/// larger one.
 bool may_slide_away(const Case& c) {
   const Operand& mover = c.operands()[0];
   return mover.velocity && (!mover.radius || c.values[*mover.radius] == 0);

@@ -166,7 +166,13 @@ Core<N> moved(Core<N> core, const Vector<N>& way) {
 class ExactCast {
  public:
   ExactCast(const ExactCore& a, const ExactCore& b, const ExactVector& velocity)
-      : a_(a), b_(b), velocity_(velocity), radius_(a.radius + b.radius) {}
+      : a_(a),
+        b_(b),
+        velocity_(velocity),
+        radius_(a.radius + b.radius),
+        near_a_(near(a)),
+        near_b_(near(b)),
+        near_velocity_(near(velocity)) {}
 
   template <class Out>
   void report(Out& out) const {
@@ -200,7 +206,7 @@ class ExactCast {
     std::optional<Contact> first;
     bool is_tangent = false;
     const auto consider = [&](const Contact& c) {
-      if (!may_be_positive(c.time) || !is_contact(c)) return false;
+      if (!may_be_contact(c) || !may_be_positive(c.time) || !is_contact(c)) return false;
       const Exact toward = dot(c.way, velocity_);
       if (may_be_positive(toward)) {  // no other contact is earlier
         first = c, is_tangent = false;
@@ -278,6 +284,27 @@ class ExactCast {
     return Exact(b - root(discriminant)) / a;
   }
 
+  /// False where intervals tell that is_contact() is.
+  bool may_be_contact(const Contact& c) const {
+    const IntervalScope scope;
+    arithmetic_barrier();
+    const IntervalCore then = moved(near_a_, times(near_velocity_, near(c.time)));
+    const Interval beyond = gaps(near(c.way), then, near_b_)[0] - near(square(radius_));
+    const bool may_be = may_be_zero(beyond) && may_be_positive(near(c.time));
+    arithmetic_barrier();
+    return may_be || scope.any_invalid();
+  }
+  static Interval near(const Exact& x) {
+    const Bounds b = bounds(x);
+    return {b.low, b.high};
+  }
+  static IntervalVector near(const ExactVector& v) { return {near(v[0]), near(v[1]), near(v[2])}; }
+  static IntervalCore near(const ExactCore& core) {
+    IntervalCore enclosure;
+    for (const ExactVector& v : core.vertices) enclosure.vertices.push_back(near(v));
+    return enclosure;
+  }
+
   /// Whether the cores then have points at the ends of that way, and none further along it.
   bool is_contact(const Contact& c) const {
     const ExactCore then = moved(a_, times(velocity_, c.time));
@@ -328,6 +355,8 @@ class ExactCast {
   const ExactCore &a_, &b_;
   const ExactVector& velocity_;
   const Exact radius_;
+  const IntervalCore near_a_, near_b_;
+  const IntervalVector near_velocity_;
 };
 
 /// What intervals tell of a motion from a start at which the cores are further apart than their radii.

@@ -1,6 +1,7 @@
 /// The time and place at which a moving box meets another one.
 #pragma once
 
+#include <collide/box_box_signed_distance.hpp>
 #include <collide/detail/casts.hpp>
 
 namespace collide {
@@ -15,6 +16,6 @@ namespace collide {
 ///
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
 /// detail/casts.hpp.
-COLLIDE_CAST(1024, moving_box_box, Box, box, Box, fixed)
+COLLIDE_CAST(1024, moving_box_box, box_box_signed_distance, Box, box, Box, fixed)
 
 }  // namespace collide

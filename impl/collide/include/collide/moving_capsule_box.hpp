@@ -1,6 +1,7 @@
 /// The time and place at which a moving capsule meets a box.
 #pragma once
 
+#include <collide/capsule_box_signed_distance.hpp>
 #include <collide/detail/casts.hpp>
 
 namespace collide {
@@ -16,6 +17,6 @@ namespace collide {
 ///
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
 /// detail/casts.hpp.
-COLLIDE_CAST(1024, moving_capsule_box, Capsule, capsule, Box, box)
+COLLIDE_CAST(1024, moving_capsule_box, capsule_box_signed_distance, Capsule, capsule, Box, box)
 
 }  // namespace collide

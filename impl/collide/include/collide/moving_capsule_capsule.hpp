@@ -1,6 +1,7 @@
 /// The time and place at which a moving capsule meets another one.
 #pragma once
 
+#include <collide/capsule_capsule_signed_distance.hpp>
 #include <collide/detail/casts.hpp>
 
 namespace collide {
@@ -18,6 +19,6 @@ namespace collide {
 ///
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
 /// detail/casts.hpp.
-COLLIDE_CAST(256, moving_capsule_capsule, Capsule, capsule, Capsule, fixed)
+COLLIDE_CAST(256, moving_capsule_capsule, capsule_capsule_signed_distance, Capsule, capsule, Capsule, fixed)
 
 }  // namespace collide

@@ -1,6 +1,7 @@
 /// The time and place at which a moving capsule meets a triangle.
 #pragma once
 
+#include <collide/capsule_triangle_signed_distance.hpp>
 #include <collide/detail/casts.hpp>
 
 namespace collide {
@@ -19,6 +20,6 @@ namespace collide {
 ///
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
 /// detail/casts.hpp.
-COLLIDE_CAST(512, moving_capsule_triangle, Capsule, capsule, Triangle, triangle)
+COLLIDE_CAST(512, moving_capsule_triangle, capsule_triangle_signed_distance, Capsule, capsule, Triangle, triangle)
 
 }  // namespace collide

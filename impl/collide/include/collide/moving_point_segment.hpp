@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/detail/casts.hpp>
+#include <collide/point_segment_signed_distance.hpp>
 
 namespace collide {
 
@@ -17,6 +18,6 @@ namespace collide {
 ///
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
 /// detail/casts.hpp.
-COLLIDE_CAST(256, moving_point_segment, Vec3, point, Segment, segment)
+COLLIDE_CAST(256, moving_point_segment, point_segment_signed_distance, Vec3, point, Segment, segment)
 
 }  // namespace collide

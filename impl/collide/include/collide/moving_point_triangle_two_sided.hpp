@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/detail/casts.hpp>
+#include <collide/point_triangle_signed_distance.hpp>
 
 namespace collide {
 
@@ -18,6 +19,6 @@ namespace collide {
 ///
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
 /// detail/casts.hpp.
-COLLIDE_CAST(512, moving_point_triangle_two_sided, Vec3, point, Triangle, triangle)
+COLLIDE_CAST(512, moving_point_triangle_two_sided, point_triangle_signed_distance, Vec3, point, Triangle, triangle)
 
 }  // namespace collide

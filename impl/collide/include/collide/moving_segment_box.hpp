@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/detail/casts.hpp>
+#include <collide/segment_box_signed_distance.hpp>
 
 namespace collide {
 
@@ -16,6 +17,6 @@ namespace collide {
 ///
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
 /// detail/casts.hpp.
-COLLIDE_CAST(1024, moving_segment_box, Segment, segment, Box, box)
+COLLIDE_CAST(1024, moving_segment_box, segment_box_signed_distance, Segment, segment, Box, box)
 
 }  // namespace collide

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/detail/casts.hpp>
+#include <collide/segment_capsule_signed_distance.hpp>
 
 namespace collide {
 
@@ -18,6 +19,6 @@ namespace collide {
 ///
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
 /// detail/casts.hpp.
-COLLIDE_CAST(256, moving_segment_capsule, Segment, segment, Capsule, capsule)
+COLLIDE_CAST(256, moving_segment_capsule, segment_capsule_signed_distance, Segment, segment, Capsule, capsule)
 
 }  // namespace collide

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/detail/casts.hpp>
+#include <collide/segment_segment_signed_distance.hpp>
 
 namespace collide {
 
@@ -17,6 +18,6 @@ namespace collide {
 ///
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
 /// detail/casts.hpp.
-COLLIDE_CAST(256, moving_segment_segment, Segment, segment, Segment, fixed)
+COLLIDE_CAST(256, moving_segment_segment, segment_segment_signed_distance, Segment, segment, Segment, fixed)
 
 }  // namespace collide

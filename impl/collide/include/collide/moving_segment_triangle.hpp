@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/detail/casts.hpp>
+#include <collide/segment_triangle_signed_distance.hpp>
 
 namespace collide {
 
@@ -19,6 +20,6 @@ namespace collide {
 ///
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
 /// detail/casts.hpp.
-COLLIDE_CAST(512, moving_segment_triangle, Segment, segment, Triangle, triangle)
+COLLIDE_CAST(512, moving_segment_triangle, segment_triangle_signed_distance, Segment, segment, Triangle, triangle)
 
 }  // namespace collide

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/detail/casts.hpp>
+#include <collide/sphere_segment_signed_distance.hpp>
 
 namespace collide {
 
@@ -18,6 +19,6 @@ namespace collide {
 ///
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
 /// detail/casts.hpp.
-COLLIDE_CAST(256, moving_sphere_segment, Sphere, sphere, Segment, segment)
+COLLIDE_CAST(256, moving_sphere_segment, sphere_segment_signed_distance, Sphere, sphere, Segment, segment)
 
 }  // namespace collide

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/detail/casts.hpp>
+#include <collide/triangle_box_signed_distance.hpp>
 
 namespace collide {
 
@@ -18,6 +19,6 @@ namespace collide {
 ///
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
 /// detail/casts.hpp.
-COLLIDE_CAST(1024, moving_triangle_box, Triangle, triangle, Box, box)
+COLLIDE_CAST(1024, moving_triangle_box, triangle_box_signed_distance, Triangle, triangle, Box, box)
 
 }  // namespace collide

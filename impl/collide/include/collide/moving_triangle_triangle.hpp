@@ -2,6 +2,7 @@
 #pragma once
 
 #include <collide/detail/casts.hpp>
+#include <collide/triangle_triangle_signed_distance.hpp>
 
 namespace collide {
 
@@ -18,6 +19,6 @@ namespace collide {
 ///
 /// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
 /// detail/casts.hpp.
-COLLIDE_CAST(512, moving_triangle_triangle, Triangle, triangle, Triangle, fixed)
+COLLIDE_CAST(512, moving_triangle_triangle, triangle_triangle_signed_distance, Triangle, triangle, Triangle, fixed)
 
 }  // namespace collide

@@ -21,6 +21,8 @@
 
 namespace collide {
 
+struct Certified;  // certified.hpp
+
 namespace detail {
 
 template <class T>
@@ -94,6 +96,9 @@ Impact<T> contact_of(const T& time, const SignedDistance<T>& d) {
 struct CastGuess {
   enum class Kind { starts, misses, hits } kind = Kind::hits;
   Vec3<double> aside{};
+  /// Whether doubles cannot tell that the shapes start apart. Otherwise they do: the distance has at most half of the
+  /// bound's error (contracts::signed_distance).
+  bool may_start_in_contact = true;
   struct Features {
     Vertices of, to;
   };
@@ -128,8 +133,9 @@ bool has_zero_between(const T& first, const T& second) {
 /// Where the features that have a facet meet, a vertex and a face or two edges, when they are `radii` apart. None where
 /// numbers that prove find that they do not.
 template <class Tier, class A, class B, class T>
-std::optional<MetCores<T>> met_along_facet(const A& a, const B& b, const Vec3<T>& velocity, const T& radii,
-                                           const CastGuess::Features& features, int facet) {
+[[gnu::noinline]] std::optional<MetCores<T>> met_along_facet(const A& a, const B& b, const Vec3<T>& velocity,
+                                                             const T& radii, const CastGuess::Features& features,
+                                                             int facet) {
   constexpr bool proves = !FollowsDecisions<T>;
   const auto& [of, to] = features;
   const Vec3<T>&on_a = vertex_of(a, std::countr_zero(of)), &on_b = vertex_of(b, std::countr_zero(to));
@@ -191,8 +197,8 @@ std::optional<T> first_root(const T& a, const T& b, const T& c) {
 
 /// Where a vertex meets a vertex or an edge of the other core, when they are `radii` apart.
 template <class Tier, class A, class B, class T>
-std::optional<MetCores<T>> met_along_way(const A& a, const B& b, const Vec3<T>& velocity, const T& radii,
-                                         const CastGuess::Features& features) {
+[[gnu::noinline]] std::optional<MetCores<T>> met_along_way(const A& a, const B& b, const Vec3<T>& velocity,
+                                                           const T& radii, const CastGuess::Features& features) {
   constexpr bool proves = !FollowsDecisions<T>;
   const auto& [of, to] = features;
   if (std::popcount(of) + std::popcount(to) > 3) return std::nullopt;
@@ -392,24 +398,22 @@ Impact<T> cast_by_steps(const A& a, const Vec3<T>& velocity, const B& b) {
   return Impact<T>::miss();
 }
 
-/// What doubles say of a cast, computed when it is asked for the first time, and what was proved of it.
+/// What doubles say of a cast, and what was proved of it.
 template <class A, class B, class T>
 class CastProposal {
  public:
   /// The arguments must live as long.
-  CastProposal(const A& a, const Vec3<T>& velocity, const B& b) : at_start(a, b), a_(a), velocity_(velocity), b_(b) {}
-  const detail::CastGuess& guess() {
-    if (!guess_) guess_.emplace(guessed());
-    return *guess_;
-  }
+  CastProposal(const A& a, const Vec3<T>& velocity, const B& b)
+      : a_(a), velocity_(velocity), b_(b), guess_(guessed()) {}
+  const detail::CastGuess& guess() const { return guess_; }
 
   std::optional<detail::ProvedCast> proved;
-  Proposal<A, B> at_start;
+  bool starts_in_touch = false;
 
  private:
   using Guess = detail::CastGuess;
 
-  detail::CastGuess guessed() const {
+  Guess guessed() const {
     const auto first = detail::in_doubles(a_);
     const auto second = detail::in_doubles(b_);
     const Vec3<double> way = detail::in_doubles(velocity_);
@@ -421,6 +425,7 @@ class CastProposal {
     for (int step = 0; step < most_steps; ++step) {
       const auto there = guess_between(detail::translated(first, way * time), second);
       const double ahead = there.apart.apart - radii, closing = Plain::dot(there.apart.normal, way);
+      if (step == 0) guess.may_start_in_contact = !(ahead > 16 * there.rounding);
       if (step == 0 && ahead <= 0) {
         guess.kind = Guess::Kind::starts;
         return guess;
@@ -433,6 +438,7 @@ class CastProposal {
       if (!(closing > 0)) {
         if (!(ahead > 0)) break;
         guess.kind = Guess::Kind::misses;
+        // Of the last two normals, where both lead apart, a sum does that at a right angle to the motion.
         guess.aside = step == 0 ? there.apart.normal : there.apart.normal * last_closing - last_normal * closing;
         const double along = Plain::dot(guess.aside, way), speed2 = Plain::dot(way, way);
         const double back = detail::sqrt(Plain::dot(guess.aside, guess.aside) * speed2) * 0x1p-48;
@@ -449,14 +455,44 @@ class CastProposal {
   const A& a_;
   const Vec3<T>& velocity_;
   const B& b_;
-  std::optional<detail::CastGuess> guess_;
+  const Guess guess_;
 };
 
-template <class Tier, class A, class B, class T, class First, class Second>
-Impact<T> cast_by_search(const A& a, const Vec3<T>& velocity, const B& b, const First& first, const Second& second,
-                         const SignedDistance<T>& at_start);
+/// Of exact numbers, where nothing that doubles propose has been proved.
+template <class Tier, class T, class A, class B>
+[[gnu::noinline]] Impact<T> cast_by_search(const Vec3<T>& origin, const Vec3<T>& velocity, const A& a, const B& b,
+                                           bool touches) {
+  const T radii = a.radius + b.radius;
+  const auto unit = [](const Vec3<T>& d) { return detail::unit_of<Tier>(d); };
+  const auto answer = [&](const T& time, const Vec3<T>& on_b, const Vec3<T>& normal) {
+    return detail::contact(time, (origin + on_b) - normal * b.radius, -normal);
+  };
+  const auto nearest = [&](const A& core) { return detail::shortest_of_ways<Tier>(core, b); };
+  if (radii > T(0)) {
+    if (touches) {
+      const detail::WayBetween<T> way = nearest(a);
+      if (!(Tier::dot(way.way, velocity) >= T(0))) return Impact<T>::miss();
+      return answer(T(0), way.from + way.way, unit(way.way));
+    }
+    const auto met = detail::met_by_search<Tier>(a, b, velocity, radii);
+    return met ? answer(met->time, met->on_b, met->normal) : Impact<T>::miss();
+  }
+  const detail::PartingDirections<Tier, A, B, T> parting(a, b, velocity);
+  if (touches) {
+    std::optional<Vec3<T>> along;
+    if (!parting.misses() && parting.time() == T(0)) along = parting.last();
+    if (!along) along = parting.of_touch();
+    if (!along && detail::is_difference_flat<Tier>(a, b)) {
+      along = detail::across_some_edge<Tier>(a, b);
+      if (Tier::dot(*along, velocity) < T(0)) along = -*along;
+    }
+    return along ? answer(T(0), nearest(a).from, unit(*along)) : Impact<T>::miss();
+  }
+  if (parting.misses() || !(parting.time() > T(0))) return Impact<T>::miss();
+  return answer(parting.time(), nearest(A(detail::moved_by(velocity * parting.time(), a))).from, unit(parting.last()));
+}
 
-/// Of exact numbers, and of those with error bounds.
+/// Of exact numbers, and of those with error bounds, for shapes that do not overlap at the start.
 template <class Tier, class A, class B, class T, class Proposal>
 Impact<T> exact_cast(const A& a, const Vec3<T>& velocity, const B& b, Proposal& proposal) {
   using Kind = detail::CastGuess::Kind;
@@ -467,22 +503,14 @@ Impact<T> exact_cast(const A& a, const Vec3<T>& velocity, const B& b, Proposal& 
   const auto answer = [&](const detail::MetCores<T>& met) {
     return detail::contact(met.time, (origin + met.on_b) - met.normal * second.radius, -met.normal);
   };
-  const auto at_start = [&] { return signed_distance<Tier>(a, b, proposal.at_start); };
   if constexpr (detail::FollowsDecisions<T>) {
     const detail::ProvedCast& proved = *proposal.proved;
     if (proved.kind == Kind::misses) return Impact<T>::miss();
-    if (proved.kind == Kind::starts) return detail::contact_of(T(0), at_start());
     return answer(*detail::met_between<Tier>(first, second, velocity, radii, proved.features));
   } else {
     proposal.proved.reset();
     const detail::CastGuess& guess = proposal.guess();
-    if (guess.kind == Kind::starts) {
-      const SignedDistance<T> d = at_start();
-      if (d.distance < T(0)) {
-        proposal.proved = detail::ProvedCast{Kind::starts, {}};
-        return detail::contact_of(T(0), d);
-      }
-    } else if (guess.kind == Kind::misses) {
+    if (guess.kind == Kind::misses) {
       const Vec3<T> aside{T(guess.aside.x), T(guess.aside.y), T(guess.aside.z)};
       const auto misses = detail::found_without_doubt<T>([&]() -> std::optional<bool> {
         if (!(Tier::dot(aside, velocity) <= T(0))) return std::nullopt;
@@ -494,70 +522,54 @@ Impact<T> exact_cast(const A& a, const Vec3<T>& velocity, const B& b, Proposal& 
         proposal.proved = detail::ProvedCast{Kind::misses, {}};
         return Impact<T>::miss();
       }
-    } else {
-      for (int i = 0; i < guess.count; ++i) {
-        const auto met = detail::found_without_doubt<T>(
-            [&] { return detail::met_between<Tier>(first, second, velocity, radii, guess.features[std::size_t(i)]); });
-        if (!met) continue;
-        proposal.proved = detail::ProvedCast{Kind::hits, guess.features[std::size_t(i)]};
-        return answer(*met);
-      }
+    }
+    for (int i = 0; i < guess.count && guess.kind == Kind::hits; ++i) {
+      const detail::CastGuess::Features& features = guess.features[std::size_t(i)];
+      const auto met = detail::found_without_doubt<T>(
+          [&] { return detail::met_between<Tier>(first, second, velocity, radii, features); });
+      if (!met) continue;
+      proposal.proved = detail::ProvedCast{Kind::hits, features};
+      return answer(*met);
     }
     if constexpr (requires { T::only_proves; }) {
       T::doubt() = true;
       return {};
     } else {
-      return cast_by_search<Tier>(a, velocity, b, first, second, at_start());
+      return cast_by_search<Tier>(origin, velocity, first, second, proposal.starts_in_touch);
     }
   }
 }
 
-/// Of exact numbers, where nothing that doubles propose has been proved.
-template <class Tier, class A, class B, class T, class First, class Second>
-[[gnu::noinline]] Impact<T> cast_by_search(const A& a, const Vec3<T>& velocity, const B& b, const First& first,
-                                           const Second& second, const SignedDistance<T>& at_start) {
-  if (at_start.distance < T(0)) return detail::contact_of(T(0), at_start);
-  const bool touches = at_start.distance == T(0);
-  const T radii = first.radius + second.radius;
-  if (radii > T(0)) {
-    if (touches) {
-      return Tier::dot(at_start.normal, velocity) >= T(0) ? detail::contact_of(T(0), at_start) : Impact<T>::miss();
+/// The kernel of every cast of this kind, as `Tier` lifts it; in one that proves, `start()` is the signed distance at
+/// the start.
+template <class Tier, class A, class B, class T, class Start>
+Impact<T> lifted_cast(const A& a, const Vec3<T>& velocity, const B& b, const Start& start) {
+  if constexpr (uses_filter<Tier, T>) {
+    CastProposal<A, B, T> proposal(a, velocity, b);
+    if (proposal.guess().may_start_in_contact) {
+      const SignedDistance<T> d = start();
+      if (d.distance < T(0)) {
+        Impact<T> at_start = detail::contact_of(T(0), d);
+        reject_nonfinite(at_start, a, velocity, b);
+        return at_start;
+      }
+      proposal.starts_in_touch = d.distance == T(0);
     }
-    const auto met = detail::met_by_search<Tier>(first, second, velocity, radii);
-    if (!met) return Impact<T>::miss();
-    return detail::contact(met->time, (detail::any_point_of(a) + met->on_b) - met->normal * second.radius,
-                           -met->normal);
+    return Tier::lift(
+        [&proposal](auto tier, const auto& one, const auto& way, const auto& other) {
+          using In = decltype(tier);
+          if constexpr (MachineNumber<std::remove_cvref_t<decltype(way.x)>>) {
+            return cast_by_steps<In>(one, way, other);
+          } else {
+            return exact_cast<In>(one, way, other, proposal);
+          }
+        },
+        a, velocity, b);
+  } else {
+    return Tier::lift([](auto tier, const auto& one, const auto& way,
+                         const auto& other) { return cast_by_steps<decltype(tier)>(one, way, other); },
+                      a, velocity, b);
   }
-  const detail::PartingDirections<Tier, First, Second, T> parting(first, second, velocity);
-  const auto unit = [](const Vec3<T>& d) { return detail::unit_of<Tier>(d); };
-  if (touches) {
-    if (!parting.misses() && parting.time() == T(0)) return {T(0), at_start.point2, -unit(parting.last())};
-    if (const auto along = parting.of_touch()) return {T(0), at_start.point2, -unit(*along)};
-    if (!detail::is_difference_flat<Tier>(first, second)) return Impact<T>::miss();
-    Vec3<T> normal = detail::across_some_edge<Tier>(first, second);
-    if (Tier::dot(normal, velocity) < T(0)) normal = -normal;
-    return {T(0), at_start.point2, -unit(normal)};
-  }
-  if (parting.misses() || !(parting.time() > T(0))) return Impact<T>::miss();
-  const A then = detail::translated(a, velocity * parting.time());
-  Proposal<A, B> proposal(then, b);
-  return detail::contact(parting.time(), signed_distance<Tier>(then, b, proposal).point2, -unit(parting.last()));
-}
-
-/// The kernel of every cast of this kind, as `Tier` lifts it.
-template <class Tier, class A, class B, class T>
-Impact<T> lifted_cast(const A& a, const Vec3<T>& velocity, const B& b) {
-  return Tier::lift(
-      [proposal = CastProposal(a, velocity, b)](auto tier, const auto& one, const auto& way,
-                                                const auto& other) mutable {
-        using In = decltype(tier);
-        if constexpr (MachineNumber<std::remove_cvref_t<decltype(way.x)>>) {
-          return cast_by_steps<In>(one, way, other);
-        } else {
-          return exact_cast<In>(one, way, other, proposal);
-        }
-      },
-      a, velocity, b);
 }
 
 }  // namespace kernels
@@ -578,30 +590,33 @@ constexpr Contract cast(double backward) {
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type and a name that is declared have none
 
-/// Defines the function `name` of a moving and a fixed shape, its kernel and its contract.
-#define COLLIDE_CAST(backward, name, First, first, Second, second)                                                     \
-  COLLIDE_COMPILED(name)                                                                                               \
-  namespace kernels {                                                                                                  \
-  template <class Tier, class T>                                                                                       \
-  inline Impact<T> name(const First<T>& first, const Vec3<T>& velocity, const Second<T>& second) {                     \
-    if constexpr (Tier::template lifts<T>) {                                                                           \
-      using In = TierOfSignedDistance<Tier, First<T>, Second<T>>;                                                      \
-      return lifted_cast<In>(detail::with_moderate_rotation(first), velocity, detail::with_moderate_rotation(second)); \
-    } else {                                                                                                           \
-      return cast_by_steps<Tier>(first, velocity, second);                                                             \
-    }                                                                                                                  \
-  }                                                                                                                    \
-  }                                                                                                                    \
-  namespace contracts {                                                                                                \
-  template <class Tier = Fast, class T = double>                                                                       \
-  constexpr Contract name() {                                                                                          \
-    return cast<Tier, T>(backward);                                                                                    \
-  }                                                                                                                    \
-  }                                                                                                                    \
-  template <class Tier = Fast, class T>                                                                                \
-  [[nodiscard]] inline Impact<T> name(const First<T>& first, const Vec3<T>& velocity,                                  \
-                                      const Second<T>& second) noexcept(Tier::never_throws) {                          \
-    COLLIDE_ANSWER(name, TierOfDecisions<Tier>, first, velocity, second);                                              \
+/// Defines the function `name` of a moving and a fixed shape, its kernel and its contract. `distance` is their signed
+/// distance.
+#define COLLIDE_CAST(backward, name, distance, First, first, Second, second)                                          \
+  COLLIDE_COMPILED(name)                                                                                              \
+  namespace kernels {                                                                                                 \
+  template <class Tier, class T>                                                                                      \
+  inline Impact<T> name(const First<T>& first, const Vec3<T>& velocity, const Second<T>& second) {                    \
+    if constexpr (Tier::template lifts<T>) {                                                                          \
+      using In = TierOfSignedDistance<Tier, First<T>, Second<T>>;                                                     \
+      const auto start = [&] { return compiled::distance<SignedDistance<T>, Certified>(first, second); };             \
+      return lifted_cast<In>(detail::with_moderate_rotation(first), velocity, detail::with_moderate_rotation(second), \
+                             start);                                                                                  \
+    } else {                                                                                                          \
+      return cast_by_steps<Tier>(first, velocity, second);                                                            \
+    }                                                                                                                 \
+  }                                                                                                                   \
+  }                                                                                                                   \
+  namespace contracts {                                                                                               \
+  template <class Tier = Fast, class T = double>                                                                      \
+  constexpr Contract name() {                                                                                         \
+    return cast<Tier, T>(backward);                                                                                   \
+  }                                                                                                                   \
+  }                                                                                                                   \
+  template <class Tier = Fast, class T>                                                                               \
+  [[nodiscard]] inline Impact<T> name(const First<T>& first, const Vec3<T>& velocity,                                 \
+                                      const Second<T>& second) noexcept(Tier::never_throws) {                         \
+    COLLIDE_ANSWER(name, TierOfDecisions<Tier>, first, velocity, second);                                             \
   }
 
 // NOLINTEND(bugprone-macro-parentheses)
