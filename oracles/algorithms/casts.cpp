@@ -84,9 +84,6 @@ struct AboveHalfSpace<Interval> {
   }
 };
 
-template <template <class> class Q, class N>
-concept WithHalfSpace = std::same_as<decltype(Q<N>::b), collide::HalfSpace<N>>;
-
 template <template <class> class Q, class N, class Out>
 void cast_against_half_space(const Q<N>& q, Out& out) {
   Core<N> a = core_of(q.a);

@@ -15,9 +15,6 @@ namespace nearmiss::oracle {
 
 namespace {
 
-template <template <class> class Q, class N>
-concept WithHalfSpace = std::same_as<decltype(Q<N>::b), collide::HalfSpace<N>>;
-
 /// From a half-space: against its normal, from the vertices that are furthest that way.
 template <template <class> class Q, class Out>
   requires WithHalfSpace<Q, Exact>

@@ -14,6 +14,10 @@
 
 namespace nearmiss::oracle {
 
+/// A query of the grid about a shape and a half-space.
+template <template <class> class Q, class N>
+concept WithHalfSpace = std::same_as<decltype(Q<N>::b), collide::HalfSpace<N>>;
+
 inline constexpr std::size_t normal_at = begin_of<collide::SignedDistance<double>>("normal");
 inline constexpr std::size_t point1_at = begin_of<collide::SignedDistance<double>>("point1");
 inline constexpr std::size_t point2_at = begin_of<collide::SignedDistance<double>>("point2");
