@@ -170,34 +170,6 @@ constexpr Link cast_of_box_halfspace[] = {at_rest(query_id("box_halfspace_overla
                                            .to = query_id("moving_sphere_halfspace"),
                                            .renamed = {{{"sphere.center", "box.center"}, {"sphere.radius", "-"}}}}};
 
-constexpr std::span<const Link> cast_of_point_segment{}, cast_of_segment_segment{}, cast_of_point_triangle{};
-constexpr Link cast_of_sphere_segment[] = {at_rest(query_id("sphere_segment_overlap")),
-                                           as_point(query_id("moving_point_segment"), {{{"point", "sphere.center"}}})};
-constexpr Link cast_of_segment_capsule[] = {at_rest(query_id("segment_capsule_overlap"))};
-constexpr Link cast_of_capsule_capsule[] = {
-    {.kind = Link::Kind::at_rest,
-     .to = query_id("capsule_capsule_overlap"),
-     .renamed = {{{"capsule1", "capsule"}, {"capsule2", "fixed"}}}},
-    as_sphere(query_id("moving_sphere_capsule"),
-              {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}, {"capsule", "fixed"}}})};
-constexpr Link cast_of_sphere_triangle[] = {
-    at_rest(query_id("sphere_triangle_overlap")),
-    as_point(query_id("moving_point_triangle_two_sided"), {{{"point", "sphere.center"}}})};
-constexpr Link cast_of_segment_triangle[] = {at_rest(query_id("segment_triangle_overlap"))};
-constexpr Link cast_of_capsule_triangle[] = {
-    at_rest(query_id("capsule_triangle_overlap")),
-    as_sphere(query_id("moving_sphere_triangle_two_sided"),
-              {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}}})};
-constexpr Link cast_of_triangle_triangle[] = {{.kind = Link::Kind::at_rest,
-                                               .to = query_id("triangle_triangle_overlap"),
-                                               .renamed = {{{"triangle1", "triangle"}, {"triangle2", "fixed"}}}}};
-constexpr Link cast_of_segment_box[] = {at_rest(query_id("segment_box_overlap"))};
-constexpr Link cast_of_capsule_box[] = {at_rest(query_id("capsule_box_overlap"))};
-constexpr Link cast_of_triangle_box[] = {at_rest(query_id("triangle_box_overlap"))};
-constexpr Link cast_of_box_box[] = {{.kind = Link::Kind::at_rest,
-                                     .to = query_id("box_box_overlap"),
-                                     .renamed = {{{"box1", "box"}, {"box2", "fixed"}}}}};
-
 }  // namespace grid
 
 #define NEARMISS_OVERLAP(first, second)                                                                   \
