@@ -123,28 +123,28 @@ LibraryAnswer told(const std::optional<BulletHit>& hit) {
 }
 
 /// A sphere that moves from its start to past the shape, or a point, as Bullet's ray tests cast it.
-template <class B, std::optional<BulletHit> (BulletMotion<B>::*cast)() const>
+template <class B, std::optional<BulletHit> (BulletMotion<Sphere, B>::*cast)() const>
 struct Motion {
   template <class Q>
   explicit Motion(const Q& q) : Motion(mover(q), q.velocity, target(q)) {}
   Motion(const Sphere& sphere, const Vec3d& velocity, const B& fixed)
-      : motion(sphere, end_of_motion(sphere.center, velocity, sphere.radius, fixed), fixed) {}
+      : motion(sphere, end_of_motion(sphere.center, velocity, sphere.radius, fixed) - sphere.center, fixed) {}
   LibraryAnswer ask() const { return told((motion.*cast)()); }
 
  private:
   template <class Q>
   static Sphere mover(const Q& q) {
-    if constexpr (requires { q.point; }) {
-      return {q.point, 0};
+    if constexpr (AsksPointMotion<Q>) {
+      return {moving_point_of(q), 0};
     } else {
-      return q.sphere;
+      return std::get<0>(shapes_of(q));
     }
   }
   template <class Q>
   static const B& target(const Q& q) {
     return std::get<std::tuple_size_v<ShapesOf<Q>> - 1>(shapes_of(q));
   }
-  BulletMotion<B> motion;
+  BulletMotion<Sphere, B> motion;
 };
 
 void keep_contact(const btVector3& from, const btVector3& to, btScalar fraction) {
@@ -157,7 +157,7 @@ void keep_contact(const btVector3& from, const btVector3& to, btScalar fraction)
 template <class Ray>
 struct RayTest {
   template <class Q>
-  explicit RayTest(const Q& q) : RayTest(q.point, q.velocity, std::get<0>(shapes_of(q))) {}
+  explicit RayTest(const Q& q) : RayTest(moving_point_of(q), q.velocity, std::get<0>(shapes_of(q))) {}
   template <class S>
   RayTest(const Vec3d& point, const Vec3d& velocity, const S& shape)
       : ray(point, end_of_motion(point, velocity, 0, shape), shape) {}
@@ -212,15 +212,16 @@ void enter_query(const char* name) {
       enter(std::type_identity<AABoxSlabs>(), "slabs");
     }
   } else if constexpr (AsksBallMotion<Q> && BulletKnows<Second<Q>>) {
-    using Shot = BulletMotion<Second<Q>>;
-    if constexpr (!is_plane<Second<Q>>) enter(std::type_identity<Motion<Second<Q>, &Shot::subsimplex>>(), "subsimplex");
+    using Shot = BulletMotion<Sphere, Second<Q>>;
+    if constexpr (!is_plane<Second<Q>> && !is_halfspace<Second<Q>>)
+      enter(std::type_identity<Motion<Second<Q>, &Shot::subsimplex>>(), "subsimplex");
     enter(std::type_identity<Motion<Second<Q>, &Shot::continuous>>(), "continuous");
   } else if constexpr (AsksPointMotion<Q> && is_triangle<First<Q>>) {
     enter(std::type_identity<RayTest<BulletTriangleRay>>(), "triangle-ray");
   } else if constexpr (AsksPointMotion<Q> && is_aabox<First<Q>>) {
     enter(std::type_identity<RayTest<BulletAABoxRay>>(), "outcodes");
-  } else if constexpr (AsksPointMotion<Q> && BulletKnows<First<Q>> && !is_plane<First<Q>>) {
-    enter(std::type_identity<Motion<First<Q>, &BulletMotion<First<Q>>::subsimplex>>(), "subsimplex");
+  } else if constexpr (AsksPointMotion<Q> && BulletKnows<First<Q>> && !is_plane<First<Q>> && !is_halfspace<First<Q>>) {
+    enter(std::type_identity<Motion<First<Q>, &BulletMotion<Sphere, First<Q>>::subsimplex>>(), "subsimplex");
   }
 }
 

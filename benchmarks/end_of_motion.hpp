@@ -18,8 +18,9 @@ Vec3d end_of_motion(const Vec3d& start, const Vec3d& velocity, double radius, co
   const double way = std::max(adapters::dot(ball.center - start, velocity) / speed, 0.0) + ball.radius + radius;
   return start + velocity * (way / speed);
 }
-inline Vec3d end_of_motion(const Vec3d& start, const Vec3d& velocity, double radius,
-                           const collide::Plane<double>& plane) {
+template <class S>
+  requires requires(const S& s) { s.normal, s.offset; }
+Vec3d end_of_motion(const Vec3d& start, const Vec3d& velocity, double radius, const S& plane) {
   const double above = adapters::dot(plane.normal, start) + plane.offset;
   const double closing = -adapters::dot(plane.normal, velocity);
   if (!(above > 0 && closing > 0)) return start + velocity;

@@ -80,7 +80,7 @@ struct TriangleOverlap {
 template <class Q, bool advancement>
 struct Motion {
   using Target = std::conditional_t<is_plane<Second<Q>>, Surface, Second<Q>>;
-  explicit Motion(const Q& q) : Motion(q.sphere, q.velocity, std::get<1>(shapes_of(q))) {}
+  explicit Motion(const Q& q) : Motion(std::get<0>(shapes_of(q)), q.velocity, std::get<1>(shapes_of(q))) {}
   Motion(const collide::Sphere<double>& sphere, const Vec3d& velocity, const Second<Q>& target)
       : pair(sphere, Target{target}),
         end(FclShapes::at(end_of_motion(sphere.center, velocity, sphere.radius, target))) {}
@@ -112,7 +112,8 @@ void enter_query(const char* name) {
     enter(std::type_identity<Collision<Q, AsksDepth<Q>>>(), "collide");
   } else if constexpr (AsksBallMotion<Q> && FclKnows<Second<Q>>) {
     enter(std::type_identity<Motion<Q, false>>(), "naive");
-    if constexpr (!is_plane<Second<Q>>) enter(std::type_identity<Motion<Q, true>>(), "advancement");
+    if constexpr (!is_plane<Second<Q>> && !is_halfspace<Second<Q>>)
+      enter(std::type_identity<Motion<Q, true>>(), "advancement");
   }
 }
 

@@ -13,6 +13,13 @@ struct MotionNumbers {
   std::size_t place, way;
 };
 
+/// Whether the output is the time at which a motion leaves a solid, which may be +infinity in a right answer: the
+/// second time of a span.
+inline bool is_time_of_leaving(const Query& query, std::size_t output) {
+  const Layout::Part* first = query.layout.at(Role::time);
+  return first != nullptr && query.outputs[output].role == Role::time && output != first->begin;
+}
+
 /// Empty where nothing moves.
 inline std::optional<MotionNumbers> motion_numbers_of(const Case& c) {
   const Operands& parts = c.operands();

@@ -200,6 +200,7 @@ Certain touch_of_rectangle(const Neighbourhood& n, const Start& s) {
 Certain touch_at_start(const Neighbourhood& n, const Start& s) {
   switch (s.obstacle.shape) {
     case Shape::plane: return touch_of(n, s, QueryId::sphere_plane_penetration, "sphere", "plane");
+    case Shape::halfspace: return touch_of(n, s, QueryId::sphere_halfspace_overlap, "sphere", "halfspace");
     case Shape::triangle: return touch_of(n, s, QueryId::sphere_triangle_overlap, "sphere", "triangle");
     case Shape::rectangle: return touch_of_rectangle(n, s);
     case Shape::sphere: return touch_of(n, s, QueryId::sphere_sphere_overlap, "sphere1", "sphere2");
@@ -209,8 +210,7 @@ Certain touch_at_start(const Neighbourhood& n, const Start& s) {
     case Shape::point:
     case Shape::segment:
     case Shape::line:
-    case Shape::ray:
-    case Shape::halfspace: break;
+    case Shape::ray: break;
   }
   throw std::logic_error("no obstacle");
 }

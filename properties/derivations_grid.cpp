@@ -1,7 +1,8 @@
 /// The derivation of the grid's overlaps and signed distances: the point of the Minkowski difference of the cores that
 /// is nearest to the origin, by the algorithm of Wolfe (Finding the nearest point in a polytope, Mathematical
 /// Programming 11, 1976) in rationals; where the origin is inside, the nearest of the planes through three vertices.
-/// Unlike the oracle it finds points of the difference, and looks for no direction that separates.
+/// Unlike the oracle it finds points of the difference, and looks for no direction that separates. The same of casts
+/// against a half-space, by two heights.
 #include <algorithm>
 #include <bitset>
 #include <optional>
@@ -353,6 +354,30 @@ Reference reference_signed_distance(Reader r) {
   return reference;
 }
 
+/// The height of a lowest point at the times 0 and 1 gives the line that it follows.
+template <Body (*read_first)(Reader&), HalfSpace (*read_second)(Reader&)>
+Reference reference_cast(Reader r) {
+  const Body a = read_first(r);
+  const V velocity = r.vector();
+  const HalfSpace b = read_second(r);
+  const std::vector<V> lowest = lowest_of(a, b);
+  const V from = r.choose.is_free() ? r.choose.between(lowest) : lowest.front();
+  const Q now = b.height(from), later = b.height(add(from, velocity, 1));
+  const R norm = length(b.normal), gap = real(now) / norm - real(a.radius);
+  const Q reach2 = a.radius * a.radius * square_of(b.normal);
+  const bool overlaps = now < 0 || now * now < reach2, touches = !overlaps && now * now == reach2;
+  const auto hit = [&](const R& time, const R& down) {
+    Reference reference = yes(time);
+    for (int k = 0; k < 3; ++k)
+      reference.give(R(real(from[k]) + time * real(velocity[k]) - down * real(b.normal[k]) / norm));
+    reference.give_unit(b.normal);
+    return reference;
+  };
+  if (overlaps || (touches && later <= now)) return hit(R(real(Q(0))), R(real(now) / norm));
+  if (touches || later >= now) return no();
+  return hit(R(gap * norm / real(Q(now - later))), R(real(a.radius)));
+}
+
 }  // namespace
 
 std::span<const Derived> of_grid() {
@@ -361,6 +386,7 @@ std::span<const Derived> of_grid() {
   {#first "_" #second "_overlap", &reference_overlap<&read_##first, &read_##second>},
 #define NEARMISS_SIGNED_DISTANCE(first, second) \
   {#first "_" #second "_signed_distance", &reference_signed_distance<&read_##first, &read_##second>},
+#define NEARMISS_CAST_AS(query, first, second) {#query, &reference_cast<&read_##first, &read_##second>},
 #include "impl/catalogue/grid.def"
   };
   return all;

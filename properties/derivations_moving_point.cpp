@@ -66,8 +66,9 @@ Reference reference_moving_point_rectangle(Reader r) {
   return hit(t, add(p, v, t), use_first ? cross(sub(v1, v0), sub(v2, v0)) : cross(sub(v2, v0), sub(v3, v0)));
 }
 
-/// The first t >= 0 at which the point is in [low, high]: 0 or a crossing of a face plane.
-std::optional<Q> time_in_box(const V& p, const V& v, const V& low, const V& high) {
+/// Of the times 0 and those at which a face plane is crossed, the ones at which the point is in [low, high], in order:
+/// the first one is the first of all times there.
+std::vector<Q> times_in_box(const V& p, const V& v, const V& low, const V& high) {
   std::vector<Q> times{0};
   for (int i = 0; i < 3; ++i) {
     for (const Q& plane : {low[i], high[i]}) {
@@ -75,13 +76,35 @@ std::optional<Q> time_in_box(const V& p, const V& v, const V& low, const V& high
     }
   }
   std::sort(times.begin(), times.end());
-  for (const Q& t : times) {
+  std::erase_if(times, [&](const Q& t) {
     const V x = add(p, v, t);
     bool in = true;
     for (int i = 0; i < 3; ++i) in = in && low[i] <= x[i] && x[i] <= high[i];
-    if (in) return t;
-  }
-  return std::nullopt;
+    return !in;
+  });
+  return times;
+}
+std::optional<Q> time_in_box(const V& p, const V& v, const V& low, const V& high) {
+  const std::vector<Q> times = times_in_box(p, v, low, high);
+  return times.empty() ? std::nullopt : std::optional(times.front());
+}
+
+Reference span_in_box(const V& p, const V& v, const V& low, const V& high) {
+  const std::vector<Q> times = times_in_box(p, v, low, high);
+  if (times.empty()) return no();
+  if (square_of(v) == 0) return yes(0.0, HUGE_VAL);
+  return yes(times.front(), times.back());
+}
+
+Reference reference_moving_point_span_aabox(Reader r) {
+  const V p = r.vector(), v = r.vector(), low = r.vector();
+  return span_in_box(p, v, low, r.vector());
+}
+
+Reference reference_moving_point_span_box(Reader r) {
+  const V p = r.vector(), v = r.vector();
+  const RefBox box(r);
+  return span_in_box(box.local(sub(p, box.center)), box.local(v), scaled(box.half, -1), box.half);
 }
 
 Reference reference_moving_point_aabox(Reader r) {
@@ -291,11 +314,60 @@ Reference contact_on_axis(const Q& t, const V& center, const V& v, const Tube& t
   return reference;
 }
 
+/// The times, from 0 on, at which the motion passes an end of the axis: between two of them, and after the last one,
+/// the vector from the axis is linear.
+std::vector<Q> bends_along(const V& p, const V& v, const Tube& tube) {
+  std::vector<Q> bends{0};
+  if (const Q vd = dot(v, tube.d); vd != 0) {
+    for (const V& end : {tube.a, add(tube.a, tube.d)}) {
+      if (const Q t = dot(sub(end, p), tube.d) / vd; t > 0) bends.push_back(t);
+    }
+  }
+  std::sort(bends.begin(), bends.end());
+  bends.erase(std::unique(bends.begin(), bends.end()), bends.end());
+  return bends;
+}
+
+/// The first and the last time within the tube; each piece of the motion has a quadratic of its own.
+Reference span_in_tube(const V& p, const V& v, const Tube& tube) {
+  if (square_of(v) == 0) {
+    const V away = from_segment(p, tube.a, tube.d);
+    return square_of(away) <= tube.radius * tube.radius ? yes(0.0, HUGE_VAL) : no();
+  }
+  const std::vector<Q> bends = bends_along(p, v, tube);
+  std::optional<R> enter, exit;
+  for (std::size_t k = 0; k < bends.size(); ++k) {
+    const bool last = k + 1 == bends.size();
+    const Q from = bends[k], to = last ? Q(from + 1) : bends[k + 1];
+    const V e = from_segment(add(p, v, from), tube.a, tube.d);
+    const V step = scaled(sub(from_segment(add(p, v, to), tube.a, tube.d), e), 1 / (to - from));
+    const Q a = square_of(step), b = dot(e, step), c = square_of(e) - tube.radius * tube.radius, disc = b * b - a * c;
+    const Q at_end = a * (to - from) * (to - from) + 2 * b * (to - from) + c;
+    const bool ends_in = !last && at_end <= 0;
+    const bool dips = a > 0 && disc >= 0 && b < 0 && (last || -b < a * (to - from));
+    if (c > 0 && !ends_in && !dips) continue;
+    const R first = c <= 0 ? real(from) : R(real(from) + root_of(a, b, disc));
+    if (!enter) enter = first;
+    exit = ends_in || a == 0 ? real(to) : R(real(from) + root_of(a, b, disc, +1));
+  }
+  return enter ? yes(*enter, *exit) : no();
+}
+
+Reference reference_moving_point_span_sphere(Reader r) {
+  const V p = r.vector(), v = r.vector(), center = r.vector();
+  return span_in_tube(p, v, {center, {0, 0, 0}, r.number()});
+}
+
+Reference reference_moving_point_span_capsule(Reader r) {
+  const V p = r.vector(), v = r.vector(), p0 = r.vector(), p1 = r.vector();
+  return span_in_tube(p, v, {p0, sub(p1, p0), r.number()});
+}
+
 /// A ball of radius `own` and the tube: the squared distance from the axis is one quadratic before the motion passes an
 /// end, one between the ends, one after the other end.
 Reference past_tube(const V& p, const Q& own, const V& v, const Tube& tube, const Choice& choose) {
   const V& d = tube.d;
-  const Q reach = own + tube.radius, vd = dot(v, d);
+  const Q reach = own + tube.radius;
   const auto contact = [&](const Q& t) {
     const V center = add(p, v, t), away = from_segment(center, tube.a, d);
     if (square_of(away) == 0) return contact_on_axis(t, center, v, tube, choose);
@@ -305,14 +377,7 @@ Reference past_tube(const V& p, const Q& own, const V& v, const Tube& tube, cons
   const Q outside = square_of(away) - reach * reach;
   if (outside < 0 ? own == 0 : outside == 0 && dot(away, v) > 0) return no();
   if (outside <= 0) return contact(0);
-  std::vector<Q> bends{0};
-  if (vd != 0) {
-    for (const V& end : {tube.a, add(tube.a, d)}) {
-      if (const Q t = dot(sub(end, p), d) / vd; t > 0) bends.push_back(t);
-    }
-  }
-  std::sort(bends.begin(), bends.end());
-  bends.erase(std::unique(bends.begin(), bends.end()), bends.end());
+  const std::vector<Q> bends = bends_along(p, v, tube);
   for (std::size_t k = 0; k < bends.size(); ++k) {
     const bool last = k + 1 == bends.size();
     const Q from = bends[k], middle = last ? Q(from + 1) : Q((from + bends[k + 1]) / 2);
@@ -421,6 +486,10 @@ std::span<const Derived> of_moving_points() {
                                     {"moving_point_capsule", &reference_moving_point_capsule},
                                     {"moving_point_aabox", &reference_moving_point_aabox},
                                     {"ray_aabox", &reference_ray_aabox},
+                                    {"moving_point_span_sphere", &reference_moving_point_span_sphere},
+                                    {"moving_point_span_capsule", &reference_moving_point_span_capsule},
+                                    {"moving_point_span_box", &reference_moving_point_span_box},
+                                    {"moving_point_span_aabox", &reference_moving_point_span_aabox},
                                     {"moving_point_box", &reference_moving_point_box},
                                     {"moving_sphere_plane", &reference_moving_sphere_plane},
                                     {"moving_sphere_sphere", &reference_moving_sphere_sphere},

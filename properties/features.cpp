@@ -112,6 +112,7 @@ class Encounter {
   /// The distance of the surfaces at a time: negative inside a solid, and for a point behind something flat.
   Real distance(Real time) const { return distance_at(bodies::plus(from_, velocity_, time)); }
   Real distance_at(const Point& x) const {
+    if (start_.obstacle.shape == Shape::halfspace) return above_plane(x) - radius_;
     const Real least = start_.obstacle.shape == Shape::plane ? std::abs(above_plane(x)) : distance_of_bodies(x);
     return radius_ == 0 && is_behind(x) ? -least : least - radius_;
   }
@@ -157,8 +158,8 @@ class Encounter {
     const auto corner = [&](std::size_t k) { return exactly(case_, i + 3 * k); };
     switch (start_.obstacle.shape) {
       case Shape::plane:
-      case Shape::point:  // these five are no obstacles
       case Shape::halfspace:
+      case Shape::point:  // these four are no obstacles
       case Shape::segment:
       case Shape::line:
       case Shape::ray: return;

@@ -12,6 +12,7 @@
 
 #include "corpus/generator/generator.hpp"
 #include "corpus/storage/codec.hpp"
+#include "oracles/motion_numbers.hpp"
 #include "properties/derivation.hpp"
 #include "properties/judge/families.hpp"
 #include "properties/support.hpp"
@@ -34,21 +35,22 @@ int answers_about(const Query& query) {
 double rounded_to(Scalar s, double x) { return s == Scalar::float32 ? double(float(x)) : x; }
 
 /// An answer with the first numbers of the reference. Empty if a number is beyond the scalar's range, or if a time is
-/// at the end of the range: a time beyond the largest number is a miss, and the truncated reference cannot tell the two
-/// apart.
+/// at the end of the range: a first time beyond the largest number is a miss, a later one is infinite, and the
+/// truncated reference cannot tell the two apart.
 std::optional<Answer> answer_of(const Query& query, Scalar scalar, const Reference& reference) {
   Answer a;
   a.yes = reference.yes;
   a.given = 0;
   for (std::size_t i = 0; i < reference.values.size(); ++i) {
-    if (query.outputs[i].role == Role::time && reference.values[i] >= largest_finite(scalar)) {
-      if (reference.values[i] == largest_finite(scalar)) return std::nullopt;
+    const bool is_late = query.outputs[i].role == Role::time && reference.values[i] >= largest_finite(scalar);
+    if (is_late && reference.values[i] == largest_finite(scalar)) return std::nullopt;
+    if (is_late && !is_time_of_leaving(query, i)) {
       Answer miss;
       miss.given = 0;
       return miss;
     }
-    a.values[i] = rounded_to(scalar, reference.values[i]);
-    if (!std::isfinite(a.values[i])) return std::nullopt;
+    a.values[i] = is_late ? HUGE_VAL : rounded_to(scalar, reference.values[i]);
+    if (!is_late && !std::isfinite(a.values[i])) return std::nullopt;
     a.given |= std::uint64_t{1} << i;
   }
   return a;
@@ -184,11 +186,11 @@ double next_to(double x, int way, Scalar s) {
   return s == Scalar::float32 ? double(std::nextafter(float(x), way * HUGE_VALF)) : std::nextafter(x, way * HUGE_VAL);
 }
 
-/// Moves each number up or down by an ulp, or not at all; flags and indices stay.
+/// Moves each number up or down by an ulp, or not at all; flags, indices and infinities stay.
 Answer pushed(const Query& query, Scalar scalar, Answer a, std::mt19937_64& random) {
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
     const Role role = query.outputs[i].role;
-    if (!a.gives(i) || role == Role::flag || role == Role::index) continue;
+    if (!a.gives(i) || role == Role::flag || role == Role::index || std::isinf(a.values[i])) continue;
     a.values[i] = next_to(a.values[i], int(random() % 3) - 1, scalar);
   }
   return a;

@@ -162,10 +162,12 @@ void put_plane(CaseBuilder& d, std::size_t offset, const Block& b) {
   d.set(offset, -factor * (normal[0] * b.center[0] + normal[1] * b.center[1] + normal[2] * b.center[2]));
 }
 
+/// From the front of a plane, or sometimes from behind; a half-space has no surface behind.
 Contact touch_plane(CaseBuilder& d, const Operand& mover, std::size_t offset) {
   Block b = draw_block(d, 0, d.vector(mover.positions[0]));
   put_plane(d, offset, b);
-  return touch(d, mover, false, false, b, {0, 0, d.random.one_in(4) ? -1 : 1, 1});
+  const bool may_be_behind = d.plan.query->operands.find(Shape::halfspace) == nullptr;
+  return touch(d, mover, false, false, b, {0, 0, may_be_behind && d.random.one_in(4) ? -1 : 1, 1});
 }
 
 Contact touch_operand(CaseBuilder& d, const Operand& mover, const Operand& other) {

@@ -166,6 +166,17 @@ double draw_offset(CaseBuilder& d, std::size_t i) {
   return -(d[i - 3] * near[0] + d[i - 2] * near[1] + d[i - 1] * near[2]);
 }
 
+/// A half-space is large: chance puts most bodies into it. Most of those that move start in front.
+void start_in_front(CaseBuilder& d) {
+  const Operand* halfspace = d.plan.query->operands.find(Shape::halfspace);
+  if (halfspace == nullptr || d.plan.velocities.empty() || d.random.one_in(4)) return;
+  const std::size_t normal = *halfspace->direction, offset = *halfspace->offset;
+  const Numbers n = d.vector(normal), at = d.vector(d.plan.operands.front().positions[0]);
+  if (n[0] * at[0] + n[1] * at[1] + n[2] * at[2] + d[offset] >= 0) return;
+  d.set_vector(normal, plus({}, n, -1));
+  d.set(offset, -d[offset]);
+}
+
 double draw_lone(CaseBuilder& d, std::size_t i) {
   switch (d.plan.fields[i].role) {
     case Role::flag: return double(d.random.below(2));
@@ -186,6 +197,7 @@ void draw_scene(CaseBuilder& d) {
   for (std::size_t v : d.plan.directions) d.set_vector(v, d.random.one_in(2) ? draw_direction(d) : d.random_vector(2));
   for (std::size_t begin : d.plan.rotations) draw_rotation(d, begin);
   for (std::size_t i : d.plan.lone) d.set(i, draw_lone(d, i));
+  start_in_front(d);
   if (may_touch_at_rest(d.plan) && d.random.one_in(16)) touch_at_rest(d);
   d.repair();
 }

@@ -60,7 +60,7 @@ Follow turned_corners, reversed_corners, swapped, reversed_directions, another_h
 Follow later_start, split_motion;
 Follow grown_size, grown_radius, contained_ball, longer_limit;
 Follow prepared, one_point, sphere_as_point, two_triangles, same_decision, sign_of_distance, depth_of_distance,
-    distance_of_closest, hits_pass, other_side;
+    distance_of_closest, gap_before_contact, hits_pass, other_side;
 
 }  // namespace metamorphic
 }  // namespace nearmiss

@@ -17,11 +17,12 @@ std::optional<Case> later(const Case& c, double time) {
   const Operand& mover = c.operands()[0];
   if (!mover.velocity) return std::nullopt;
   Case other = c;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t at = mover.positions[0] + k;
-    const auto moved = exact_step(c.values[at], time, c.values[*mover.velocity + k], c.scalar);
-    if (!moved) return std::nullopt;
-    other.values[at] = *moved;
+  for (const std::size_t position : mover.positions) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto moved = exact_step(c.values[position + k], time, c.values[*mover.velocity + k], c.scalar);
+      if (!moved) return std::nullopt;
+      other.values[position + k] = *moved;
+    }
   }
   return other;
 }

@@ -153,14 +153,19 @@ std::optional<FollowUps> sign_of_distance(const Case& c, std::uint64_t) {
   });
 }
 
+/// The signed distance of two operands; of a plane, that of the half-space behind it. nullptr where there is none.
+const Query* signed_distance_between(const Operands& operands) {
+  const auto solid = [](Shape shape) { return shape == Shape::plane ? Shape::halfspace : shape; };
+  return find_query(
+      fmt::format("{}_{}_signed_distance", name_of(solid(operands[0].shape)), name_of(solid(operands[1].shape))));
+}
+
 /// A depth of overlap is the distance of the same two shapes below zero; of a plane, that of the half-space behind it.
 /// Where the depth says that the shapes are apart, the distance is not below zero.
 std::optional<FollowUps> depth_of_distance(const Case& c, std::uint64_t) {
   const Layout::Part* depth = c.query->layout.at(Role::depth);
   if (c.query->kind != Kind::depth || depth == nullptr || c.operands().size() != 2) return std::nullopt;
-  const auto solid = [](Shape shape) { return shape == Shape::plane ? Shape::halfspace : shape; };
-  const Query* const grid = find_query(fmt::format("{}_{}_signed_distance", name_of(solid(c.operands()[0].shape)),
-                                                   name_of(solid(c.operands()[1].shape))));
+  const Query* const grid = signed_distance_between(c.operands());
   if (grid == nullptr) return std::nullopt;
   const std::size_t ours = depth->begin, theirs = signed_distance_of(*grid);
   Case other =
@@ -171,6 +176,27 @@ std::optional<FollowUps> depth_of_distance(const Case& c, std::uint64_t) {
     if (!std::isfinite(deep) || !std::isfinite(distance)) return Agreement::same;  // beyond the scalar's range
     const bool alike = own.yes ? std::abs(deep + distance) <= slack(scalar, deep, distance) : !(distance < 0);
     return alike ? Agreement::same : Agreement::numbers_differ;
+  });
+}
+
+/// No point of a shape that is translated moves further than the speed times the time.
+std::optional<FollowUps> gap_before_contact(const Case& c, std::uint64_t) {
+  const Operands& shapes = c.operands();
+  if (c.query->kind != Kind::impact || shapes.size() != 2 || !shapes[0].velocity) return std::nullopt;
+  const Query* const grid = signed_distance_between(shapes);
+  if (grid == nullptr) return std::nullopt;
+  Case start{grid, c.scalar, {}, c.origin, c.seed, c.index, c.moves};
+  for (const Operand& o : shapes)
+    start.values.insert(start.values.end(), &c.values[o.begin], &c.values[o.begin] + o.count);
+  const double* const velocity = &c.values[*shapes[0].velocity];
+  const long double speed = std::hypot(static_cast<long double>(velocity[0]), static_cast<long double>(velocity[1]),
+                                       static_cast<long double>(velocity[2]));
+  const std::size_t time = time_of(*c.query), distance = signed_distance_of(*grid);
+  return ordered({std::move(start)}, [=, scalar = c.scalar](const Answer& own, std::span<const Answer> others) {
+    if (!own.yes || !own.gives(time) || !others[0].gives(distance)) return Agreement::same;
+    const double way = double(speed * own.values[time]), gap = others[0].values[distance];
+    if (!std::isfinite(way) || !std::isfinite(gap)) return Agreement::same;  // beyond the scalar's range
+    return way >= gap - slack(scalar, way, gap) ? Agreement::same : Agreement::numbers_differ;
   });
 }
 

@@ -47,6 +47,8 @@ constexpr Relation all_relations[] = {
      metamorphic::sign_of_distance},
     {"depth-of-distance", "the depth of an overlap is the distance below 0", false, metamorphic::depth_of_distance},
     {"distance-of-closest", "the closest point is as far away as the shape", false, metamorphic::distance_of_closest},
+    {"gap-before-contact", "a moving shape needs time for the distance at the start", false,
+     metamorphic::gap_before_contact},
     {"hits-pass", "what hits at some time passes within unlimited time", false, metamorphic::hits_pass},
     {"other-side", "a point that hits one side of a shape does not hit the other", false, metamorphic::other_side},
 };

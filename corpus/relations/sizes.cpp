@@ -38,10 +38,11 @@ double inner_radius(const Case& c) {
   return least;
 }
 
-/// A sphere of radius 0 that only touches may slide along a small solid and move away from a larger one.
+/// A point or another body without thickness that only touches may slide along a small solid and move away from a
+/// larger one.
 bool may_slide_away(const Case& c) {
   const Operand& mover = c.operands()[0];
-  return mover.velocity && c.values[mover.radius.value()] == 0;
+  return mover.velocity && (!mover.radius || c.values[*mover.radius] == 0);
 }
 
 }  // namespace

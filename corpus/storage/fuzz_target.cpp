@@ -16,6 +16,7 @@ struct PairOfGrid {
 constexpr std::array pairs_of_grid{
 #define NEARMISS_OVERLAP(first, second) PairOfGrid{#first "_" #second "_overlap", "overlap"},
 #define NEARMISS_SIGNED_DISTANCE(first, second) PairOfGrid{#first "_" #second "_signed_distance", "signed_distance"},
+#define NEARMISS_CAST_AS(query, first, second) PairOfGrid{#query, "cast"},
 #include "impl/catalogue/grid.def"
 };
 

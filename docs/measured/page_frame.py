@@ -23,7 +23,9 @@ def catalogue():
     folder = pathlib.Path(__file__).resolve().parents[2] / "impl" / "catalogue"
     queries = re.findall(r"^NEARMISS_QUERY\((\w+)\)", (folder / "catalogue.def").read_text(), re.MULTILINE)
     grid = re.findall(r"^NEARMISS_([A-Z_]+)\(([a-z]+), ([a-z]+)\)", (folder / "grid.def").read_text(), re.MULTILINE)
-    return queries + [f"{first}_{second}_{operation.lower()}" for operation, first, second in grid]
+    names = {"CAST": "moving_{}_{}"}
+    return queries + [names.get(operation, "{}_{}_" + operation.lower()).format(first, second)
+                      for operation, first, second in grid]
 
 
 # The headers of the columns that name something. All other columns have figures.

@@ -162,17 +162,19 @@ struct BulletHit {
   btVector3 normal;
 };
 
-/// A sphere, or a point as a sphere of radius 0, that is cast to `end`.
-template <class B>
+/// A shape, or a point as a sphere of radius 0, that is cast along `way`.
+template <class A, class B>
 struct BulletMotion {
-  BulletMotion(const collide::Sphere<double>& sphere, const Vec3d& end, const B& fixed)
-      : a(sphere), b(fixed), to(BulletShapes::at(end)) {}
+  BulletMotion(const A& mover, const Vec3d& way, const B& fixed)
+      : a(mover),
+        b(fixed),
+        to(a.pose().getBasis(), BulletShapes::vector(BulletShapes::doubles(a.pose().getOrigin()) + way)) {}
   std::optional<BulletHit> subsimplex() const {
     btVoronoiSimplexSolver simplex;
     return by(btSubsimplexConvexCast(&a.geometry, &b.geometry, &simplex));
   }
   std::optional<BulletHit> continuous() const {
-    if constexpr (is_plane<B>) {
+    if constexpr (is_plane<B> || is_halfspace<B>) {
       return by(btContinuousConvexCollision(&a.geometry, &b.geometry));
     } else {
       btVoronoiSimplexSolver simplex;
@@ -181,7 +183,7 @@ struct BulletMotion {
     }
   }
 
-  BulletBody<collide::Sphere<double>> a;
+  BulletBody<A> a;
   BulletBody<B> b;
   btTransform to;
 
@@ -300,41 +302,43 @@ struct BulletInDoubles : private BulletShapes {
   }
 
   template <AsksPointMotion Q>
-    requires((BulletKnows<First<Q>> && !is_plane<First<Q>>) || is_aabox<First<Q>>)
+    requires((BulletKnows<First<Q>> && !is_plane<First<Q>> && !is_halfspace<First<Q>>) || is_aabox<First<Q>>)
   static Reply<typename Q::Answer> answer(const Q& q) {
     using Shape = First<Q>;
     const Shape& target = std::get<0>(shapes_of(q));
+    const Vec3d& start = moving_point_of(q);
     if constexpr (is_sphere<Shape>) {
-      if (length(q.point - target.center) <= target.radius)
+      if (length(start - target.center) <= target.radius)
         return CannotAnswer{"Bullet's rays do not see a shape that they start in"};
     }
-    const double horizon = time_of_cast(q.point, 0, q.velocity, ball_around(target));
-    const Vec3d end = q.point + q.velocity * horizon;
+    const double horizon = time_of_cast(start, 0, q.velocity, ball_around(target));
+    const Vec3d end = start + q.velocity * horizon;
     if (horizon == 0 || !fits(end)) return CannotAnswer{no_cast};
     if constexpr (is_triangle<Shape>) {
-      const auto hit = BulletTriangleRay(q.point, end, target).cast();
+      const auto hit = BulletTriangleRay(start, end, target).cast();
       return hit ? Reply<Impact>(first_contact(*hit, horizon)) : Impact::miss();
     } else if constexpr (is_aabox<Shape>) {
-      if (contains(target, q.point)) return CannotAnswer{"btRayAabb is asked from outside"};
+      if (contains(target, start)) return CannotAnswer{"btRayAabb is asked from outside"};
       auto entry = collide::Entry<double>::miss();
-      if (const auto hit = BulletAABoxRay(q.point, end, target).cast()) entry.time = hit->fraction * horizon;
+      if (const auto hit = BulletAABoxRay(start, end, target).cast()) entry.time = hit->fraction * horizon;
       return only(entry, {"time"});  // btRayAabb's normal points inward on one side and outward on the other
     } else {
-      const auto hit = BulletMotion({q.point, 0.0}, end, target).subsimplex();
+      const auto hit = BulletMotion(collide::Sphere<double>{start, 0.0}, q.velocity * horizon, target).subsimplex();
       return hit ? Reply<Impact>(first_contact(*hit, horizon)) : Impact::miss();
     }
   }
 
-  template <AsksBallMotion Q>
-    requires(BulletKnows<Second<Q>> && !is_plane<Second<Q>> && !is_triangle<Second<Q>>)
+  template <AsksMotion Q>
+    requires(BulletKnows<First<Q>> && BulletKnows<Second<Q>> && !Q::traits.one_sided)
   static Reply<collide::Impact<double>> answer(const Q& q) {
-    const auto& [sphere, target] = shapes_of(q);
+    const auto& [mover, target] = shapes_of(q);
     // Bullet's sweeps miss a shape in which they start, so the static algorithm is asked first.
-    if (BulletAlgorithm(sphere, target).deepest().yes()) return only(Impact{0.0, {}, {}}, {"time"});
-    const double horizon = time_of_cast(sphere.center, sphere.radius, q.velocity, ball_around(target));
-    const Vec3d end = sphere.center + q.velocity * horizon;
-    if (horizon == 0 || !fits(end)) return CannotAnswer{no_cast};
-    const auto hit = BulletMotion(sphere, end, target).continuous();
+    if (BulletAlgorithm(mover, target).deepest().yes()) return only(Impact{0.0, {}, {}}, {"time"});
+    const collide::Sphere<double> ball = ball_around(mover);
+    const double horizon = time_of_cast(ball.center, ball.radius, q.velocity, bound_of(target));
+    const Vec3d way = q.velocity * horizon;
+    if (horizon == 0 || !fits(ball.center + way)) return CannotAnswer{no_cast};
+    const auto hit = BulletMotion(mover, way, target).continuous();
     return hit ? Reply<Impact>(first_contact(*hit, horizon)) : Impact::miss();
   }
 
@@ -343,11 +347,13 @@ struct BulletInDoubles : private BulletShapes {
   static constexpr const char* no_cast = "a cast has two ends, apart and finite";
 
   /// Like time_to_pass, but positive also for a body that moves away; 0 without motion.
-  static double time_of_cast(const Vec3d& from, double radius, const Vec3d& velocity,
-                             const collide::Sphere<double>& to) {
+  template <class To>
+  static double time_of_cast(const Vec3d& from, double radius, const Vec3d& velocity, const To& to) {
     const double passing = time_to_pass(from, radius, velocity, to), speed = length(velocity);
     if (passing > 0 || !(speed > 0)) return passing;
-    return power_of_two_above((to.radius > 0 ? to.radius : 1.0) / speed);
+    double size = radius;
+    if constexpr (requires { to.radius; }) size = to.radius;
+    return power_of_two_above((size > 0 ? size : 1.0) / speed);
   }
   static Partly<Impact> first_contact(const BulletHit& hit, double horizon) {
     return only(Impact{hit.fraction * horizon, {}, doubles(hit.normal)}, {"time", "normal"});
@@ -384,7 +390,7 @@ struct Bullet {
   static std::string left_out() {
     if constexpr (requires(const Q& q) { q.point, q.velocity, q.aabox; }) {
       return "the normal of btRayAabb, which leads inward on one side and outward on the other, and the place";
-    } else if constexpr (requires(const Q& q) { q.velocity, q.triangle; }) {
+    } else if constexpr (AsksPointMotion<Q> && is_triangle<First<Q>>) {
       return "the place, of which btTriangleRaycastCallback tells the fraction alone";
     } else if constexpr (requires(const Q& q) { q.velocity; }) {
       return "the place: no header says whether m_hitPoint is that of the first contact or of the cast's last step";

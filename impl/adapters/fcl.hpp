@@ -121,7 +121,7 @@ struct Fcl : FclShapes {
 
   template <class Q>
   static collide::Contract contract() {
-    return {.backward = AsksBallMotion<Q> ? time_of_contact_error : gjk_tolerance, .lowest = -300, .highest = 300};
+    return {.backward = AsksMotion<Q> ? time_of_contact_error : gjk_tolerance, .lowest = -300, .highest = 300};
   }
   template <class Q>
   static std::string equivalence() {
@@ -131,8 +131,9 @@ struct Fcl : FclShapes {
       return "collide of the sphere's way, a capsule";
     } else if constexpr (AsksBallMotion<Q> && is_plane<Second<Q>>) {
       return "continuousCollide with the half-space behind the plane, asked where the plane's front is met";
-    } else if constexpr (AsksBallMotion<Q>) {
-      return "continuousCollide over [0, T], T the power of two that carries the sphere past";
+    } else if constexpr (AsksMotion<Q>) {
+      return "continuousCollide over [0, T], T the power of two that carries the " +
+             std::string(name_of_shape<First<Q>>) + " past";
     }
     return "";
   }
@@ -143,15 +144,14 @@ struct Fcl : FclShapes {
     } else if constexpr (AsksDepth<Q>) {
       const std::string contact = "the contact: contact.h does not say which point pos is";
       return TellsAxis<Q> ? "the axis, which it does not tell, and " + contact : contact;
-    } else if constexpr (AsksBallMotion<Q>) {
+    } else if constexpr (AsksMotion<Q>) {
       return "the place and the normal, which continuousCollide does not tell";
     }
     return "";
   }
   template <class Q>
   static std::string why_not() {
-    if constexpr (
-        requires(const Q& q) { q.velocity, q.triangle; } || requires(const Q& q) { q.velocity, q.rectangle; }) {
+    if constexpr (OfMotion<Q> && (asks_of_triangle<Q> || requires(const Q& q) { q.rectangle; })) {
       return "FCL moves nothing against a single triangle, which it has only as a part of meshes";
     } else if constexpr (is_triangle<First<Q>> && is_triangle<Second<Q>>) {
       return "FCL tests two triangles only as parts of meshes";
@@ -160,7 +160,7 @@ struct Fcl : FclShapes {
       return "FCL casts no rays";
     } else if constexpr (requires(const Q& q) { q.box1; }) {
       return "FCL keeps the parts of its test of two boxes to itself";
-    } else if constexpr (requires(const Q& q) { q.velocity; }) {
+    } else if constexpr (OfMotion<Q> && !AnswersWith<Q, Kind::impact>) {
       return "FCL computes no response";
     }
     return "FCL has no points, segments, lines or rectangles";
@@ -198,15 +198,15 @@ struct Fcl : FclShapes {
     return depth<typename Q::Answer, turn>(a, b);
   }
 
-  template <AsksBallMotion Q>
-    requires FclKnows<Second<Q>>
+  template <AsksMotion Q>
+    requires FclKnowsBoth<Q>
   static Reply<collide::Impact<double>> answer(const Q& q) {
-    const auto& [sphere, target] = shapes_of(q);
+    const auto& [mover, target] = shapes_of(q);
     if constexpr (is_plane<Second<Q>>) {
-      if (!(dot(target.normal, q.velocity) < 0) || !(dot(target.normal, sphere.center) + target.offset > 0))
+      if (!(dot(target.normal, q.velocity) < 0) || !(dot(target.normal, mover.center) + target.offset > 0))
         return CannotAnswer{"a half-space is no plane for a sphere behind it, or that does not approach it"};
     }
-    return moved(sphere, q.velocity, target);
+    return moved(mover, q.velocity, target);
   }
 
   template <AsksBallPath Q>
@@ -247,18 +247,20 @@ struct Fcl : FclShapes {
     return only(d, {"depth", "normal"});
   }
 
-  template <class B>
-  static Reply<collide::Impact<double>> moved(const collide::Sphere<double>& sphere, const Vec3d& velocity,
-                                              const B& b) {
+  template <class A, class B>
+  static Reply<collide::Impact<double>> moved(const A& a, const Vec3d& velocity, const B& b) {
     using Impact = collide::Impact<double>;
-    const double horizon = time_to_pass(sphere.center, sphere.radius, velocity, bound_of(b));
-    if (horizon == 0) return only(meet(sphere, b, nullptr) ? Impact{0.0, {}, {}} : Impact::miss(), {"time"});
-    const Vec3d end = sphere.center + velocity * horizon;
-    if (!finite(end)) return CannotAnswer{no_end};
+    const collide::Sphere<double> ball = ball_around(a);
+    const double horizon = time_to_pass(ball.center, ball.radius, velocity, bound_of(b));
+    if (horizon == 0) return only(meet(a, b, nullptr) ? Impact{0.0, {}, {}} : Impact::miss(), {"time"});
+    const FclPair pair(a, b);
+    fcl::Transform3d end = pair.a.pose;
+    end.translation() += vector(velocity * horizon);
+    if (!end.translation().allFinite()) return CannotAnswer{no_end};
     fcl::ContinuousCollisionRequestd request;
     request.gjk_solver_type = static_solver;
     request.ccd_solver_type = motion_solver;
-    const fcl::ContinuousCollisionResultd result = FclPair(sphere, b).move(at(end), request);
+    const fcl::ContinuousCollisionResultd result = pair.move(end, request);
     return only(result.is_collide ? Impact{result.time_of_contact * horizon, {}, {}} : Impact::miss(), {"time"});
   }
 };

@@ -58,9 +58,10 @@ inline double time_to_pass(const Vec3d& center, double radius, const Vec3d& velo
   const Vec3d along = velocity / speed;
   return power_of_two_above((target.radius + radius - dot(center - target.center, along)) / speed);
 }
-/// The same for a plane: 0 where the ball moves along it or away from it.
-inline double time_to_pass(const Vec3d& center, double radius, const Vec3d& velocity,
-                           const collide::Plane<double>& plane) {
+/// The same for a plane or a half-space: 0 where the ball moves along it or away from it.
+template <class S>
+  requires requires(const S& s) { s.normal, s.offset; }
+double time_to_pass(const Vec3d& center, double radius, const Vec3d& velocity, const S& plane) {
   const double approach = -dot(plane.normal, velocity), reach = radius * length(plane.normal);
   return approach > 0 ? power_of_two_above((dot(plane.normal, center) + plane.offset + reach) / approach) : 0.0;
 }

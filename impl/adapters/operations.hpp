@@ -38,6 +38,13 @@ inline constexpr bool is_aabox = detail::is_instance<collide::AABox, S>;
 template <class S>
 inline constexpr bool is_triangle = detail::is_instance<collide::Triangle, S>;
 
+/// "sphere", "capsule"; of a type that moves.
+template <class S>
+inline constexpr const char* name_of_shape = is_sphere<S>     ? "sphere"
+                                             : is_box<S>      ? "box"
+                                             : is_triangle<S> ? "triangle"
+                                                              : "capsule";
+
 /// The inputs that are shapes, but for points, in their order: references to members of `q`.
 template <class Q>
 auto shapes_of(const Q& q) {
@@ -91,9 +98,12 @@ template <class Q>
 concept TellsSignedDistance = requires(const typename Q::Answer& a) { a.distance, a.point1, a.point2; };
 template <class Q>
 concept AsksSignedDistance = OfTwoShapes<Q> && TellsSignedDistance<Q>;
+/// When a moving shape, other than a point, meets a shape.
+template <class Q>
+concept AsksMotion = OfTwoShapes<Q> && OfMotion<Q> && AnswersWith<Q, Kind::impact>;
 /// When a moving sphere meets a shape.
 template <class Q>
-concept AsksBallMotion = OfTwoShapes<Q> && OfMotion<Q> && AnswersWith<Q, Kind::impact>;
+concept AsksBallMotion = AsksMotion<Q> && is_sphere<First<Q>>;
 /// Whether a sphere meets a shape on its way.
 template <class Q>
 concept AsksBallPath = OfTwoShapes<Q> && OfMotion<Q> && AnswersWith<Q, Kind::decision>;
@@ -104,6 +114,15 @@ inline constexpr bool is_about_prepared<inputs::moving_point_triangle_prepared<T
 /// When a moving point meets a shape, which is not prepared.
 template <class Q>
 concept AsksPointMotion = std::tuple_size_v<ShapesOf<Q>> == 1 && AnswersWith<Q, Kind::impact> && !is_about_prepared<Q>;
+
+template <AsksPointMotion Q>
+const auto& moving_point_of(const Q& q) {
+  if constexpr (requires { q.point; }) {
+    return q.point;
+  } else {
+    return q.a;
+  }
+}
 
 /// The axis of two boxes is part of the answer.
 template <class Q>

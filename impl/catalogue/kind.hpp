@@ -37,6 +37,8 @@ struct KindOf<collide::Containment> : Is<Kind::decision> {};
 template <>
 struct KindOf<collide::RayHit> : Is<Kind::decision> {};
 template <>
+struct KindOf<collide::Span> : Is<Kind::decision> {};
+template <>
 struct KindOf<collide::BoxOverlap> : Is<Kind::decision> {};
 template <>
 struct KindOf<collide::ParallelAxes> : Is<Kind::decision> {};

@@ -94,10 +94,11 @@ class Collection {
     if (input.role == Role::size) all_.sizes.push_back(at_);
   }
 
+  static bool is_ball_or_point(const Operand& o) { return o.positions.size() == 1 && !o.half; }
   void set_start() {
     if (all_.all.empty()) return;
     const Operand& mover = all_.all.front();
-    if (mover.shape != Shape::ray && !mover.velocity) return;
+    if (mover.shape != Shape::ray && !(mover.velocity && is_ball_or_point(mover))) return;
     const auto obstacle = std::find_if(all_.all.begin() + 1, all_.all.end(), [](const Operand& o) {
       return o.shape != Shape::point && o.shape != Shape::segment && o.shape != Shape::line && o.shape != Shape::ray;
     });

@@ -54,7 +54,7 @@ struct InputMember {
 /// unless it says otherwise.
 struct Operands {
   using Corners = std::array<std::size_t, 4>;
-  /// The moving shape and its obstacle.
+  /// A moving ball, a moving point or a ray, and its obstacle.
   struct Start {
     std::size_t place = 0;              ///< the mover's first number: a center, a point or a ray's origin
     std::optional<std::size_t> radius;  ///< of the mover

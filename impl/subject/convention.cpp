@@ -43,7 +43,9 @@ bool concerns(Convention c, const Query& query) {
     case Convention::normal_reversed: return gives(query, Role::normal);
     case Convention::start_is_miss:
     case Convention::start_is_hit: return is_impact;
-    case Convention::exit_from_start: return start && !query.traits.one_sided && gives(query, Role::position);
+    case Convention::exit_from_start:
+      return start && start->obstacle.shape != Shape::halfspace && !query.traits.one_sided &&
+             gives(query, Role::position);
     case Convention::ends_at_time_one: return is_impact || (query.kind == Kind::decision && start && has_limit(query));
     case Convention::strict_touch:
       return (query.kind == Kind::impact || query.kind == Kind::decision) && query.operands.size() == 2;

@@ -8,9 +8,10 @@
 #include <algorithm>
 
 #include "impl/catalogue/queries/grid.hpp"
+#include "oracles/algorithms/furthest.hpp"
 #include "oracles/algorithms/near_points.hpp"
 #include "oracles/algorithms/rounded_polytopes.hpp"
-#include "oracles/algorithms/surface.hpp"
+#include "oracles/algorithms/surface_of_shapes.hpp"
 #include "oracles/algorithms/tuples.hpp"
 #include "oracles/exact/wide.hpp"
 
@@ -31,9 +32,6 @@ collide::SignedDistance<N> signed_distance_answer(const Core<N>& a, const Core<N
 }
 
 // Exact numbers.
-
-using ExactVector = Vector<Exact>;
-using ExactCore = Core<Exact>;
 
 /// { x : out . x <= level }, or where that is equal.
 struct Bound {
@@ -105,54 +103,6 @@ std::vector<ExactVector> common_part(std::vector<ExactVector> of, const std::vec
       once.push_back(std::move(x));
   }
   return once;
-}
-
-/// The corners of a polygon in order. Those of a face of a box are numbered like the corners of a square: by one bit
-/// for each side.
-std::vector<ExactVector> in_order(std::vector<ExactVector> corners) {
-  if (corners.size() == 4) std::swap(corners[2], corners[3]);
-  return corners;
-}
-/// The vertices furthest along the direction, the corners of a polygon in order; of a box, if that is not across it.
-std::vector<ExactVector> furthest(const ExactCore& core, const ExactVector& direction) {
-  std::vector<ExactVector> all;
-  for (const ExactVector& v : core.vertices) {
-    if (!all.empty() && may_be_less(dot(direction, v), dot(direction, all.front()))) continue;
-    if (!all.empty() && may_be_less(dot(direction, all.front()), dot(direction, v))) all.clear();
-    all.push_back(v);
-  }
-  return in_order(std::move(all));
-}
-
-/// A rational vector near x, and by how much a component of it is off at most.
-struct NearRational {
-  RationalVector vector;
-  double slack = 0;
-};
-NearRational near_rational(const ExactVector& x) {
-  constexpr mpfr_prec_t bits = 256;
-  NearRational near;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (!x[k].is_extended()) {
-      near.vector[k] = x[k].a0();
-      continue;
-    }
-    Wide low(bits), high(bits);
-    enclose(x[k], low, high);
-    mpfr_get_q(near.vector[k].mpq(), low.get());
-    mpfr_sub(high.get(), high.get(), low.get(), MPFR_RNDU);
-    near.slack = std::max(near.slack, mpfr_get_d(high.get(), MPFR_RNDU));
-  }
-  return near;
-}
-
-/// The place `number` of the given answer, whose distance from x is wanted for points x near base.
-template <class Out>
-PointOffset offset_place(const Out& out, std::size_t number, const ExactVector& offset) {
-  NearRational near = near_rational(offset);
-  PointOffset p{out.given_vector(number).front(), near.vector};
-  p.place.slack += near.slack;
-  return p;
 }
 
 /// The right answers with one normal, the direction, whose gap is `gap`, both times the direction's length.
@@ -259,8 +209,6 @@ void report_touch(const ExactCore& a, const ExactCore& b, const std::vector<Exac
                                     all.ulps});
 }
 
-ExactCore in_units(const ExactCore& core) { return times(Exact(Exact(1) / core.unit), core); }
-
 template <template <class> class Q, class N>
 concept WithHalfSpace = std::same_as<decltype(Q<N>::b), collide::HalfSpace<N>>;
 
@@ -317,9 +265,6 @@ void signed_distance_of(const Q<Exact>& q, Out& out) {
 }
 
 // Intervals.
-
-using IntervalVector = Vector<Interval>;
-using IntervalCore = Core<Interval>;
 
 /// A lower bound of the distance of the cores: any direction gives one.
 double least_distance(const IntervalCore& a, const IntervalCore& b) {
@@ -382,21 +327,6 @@ Interval distance_of_all(const Q<Interval>& q, const IntervalCore& a, const Inte
   const std::vector<double> middle = without_tiny_numbers<Q<double>>(inputs);
   const auto some = inputs_at<Q<Interval>>(middle);
   return widened_by(exact_signed_distance<Q>(middle), core_of(q.a), core_of(q.b), core_of(some.a), core_of(some.b));
-}
-
-/// A box around the vertices for which `may_be` is true.
-template <class MayBe>
-IntervalVector hull_of(const IntervalCore& core, MayBe may_be) {
-  std::optional<IntervalVector> hull;
-  for (const IntervalVector& v : core.vertices) {
-    if (!may_be(v)) continue;
-    if (!hull) hull = v;
-    for (std::size_t k = 0; k < 3; ++k) (*hull)[k] = join((*hull)[k], v[k]);
-  }
-  return hull.value_or(core.vertices.front());
-}
-IntervalVector within_both(const IntervalVector& a, const IntervalVector& b) {
-  return {meet(a[0], b[0]), meet(a[1], b[1]), meet(a[2], b[2])};
 }
 
 /// How far the given answer is from a right one at least, by properties that every right answer has: its normal n has
@@ -516,23 +446,6 @@ std::optional<IntervalVector> nearest_on_first(const IntervalVector& at1, const 
   return plus(at1, times(along1, t));
 }
 
-/// direction / |direction|, each component as tight as the direction's are: it grows with the same component of the
-/// direction, and its magnitude falls with the others.
-IntervalVector unit_of(const IntervalVector& direction) {
-  IntervalVector unit;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Interval &x = direction[k], others2 = square(direction[(k + 1) % 3]) + square(direction[(k + 2) % 3]);
-    const auto at = [&](double end, bool upper) {
-      const Interval along = of_bound(end), across2 = of_bound((end > 0) == upper ? others2.inf() : others2.sup());
-      const Interval value = along / root(square(along) + across2);
-      return upper ? value.sup() : value.inf();
-    };
-    unit[k] = Interval(at(x.inf(), false), at(x.sup(), true));
-    unit[k] = assume_within(unit[k], -1.0, 1.0);
-  }
-  return unit;
-}
-
 /// Narrows a point of the core to those that are nearest to a point, by a segment's equation. The point is nearest to
 /// it where the cores are apart.
 IntervalVector nearest_to(const IntervalVector& to, const IntervalCore& core, IntervalVector point) {
@@ -583,17 +496,6 @@ IntervalVector normals_of(const IntervalCore& a, const IntervalCore& b, const In
   const auto& [of_a, of_b] = *near.weights();
   return normals_around(minus(point_at(spans_of(b), of_b), point_at(spans_of(a), of_a)), distance);
 }
-
-/// Whether a vertex of the core may be furthest along the normal.
-struct MayBeFurthest {
-  const IntervalCore& core;
-  const IntervalVector& normal;
-
-  bool operator()(const IntervalVector& v) const {
-    return std::none_of(core.vertices.begin(), core.vertices.end(),
-                        [&](const IntervalVector& other) { return dot(normal, minus(other, v)).inf() > 0; });
-  }
-};
 
 /// From a half-space. Where several vertices may be the deepest one, each answer lies between them, at its heights.
 template <template <class> class Q, class Out>
@@ -673,26 +575,6 @@ void signed_distance_of(const Q<Interval>& q, Out& out) {
     }
     return false;
   });
-}
-
-/// At the radius from the core, whose edges and vertices are those of a point or a segment.
-template <class N, class Shape>
-bool may_be_on_surface_of(const Shape& shape, const GivenPlace<N>& place) {
-  const Core<N> core = core_of(shape);
-  const N distance2 = distance2_of_segment(place, core.vertices.front(), core.vertices.back());
-  return may_be_at_radius(place, distance2, core.radius);
-}
-template <class N>
-bool may_be_on_surface_of(const collide::Triangle<N>& triangle, const GivenPlace<N>& place) {
-  return may_be_on_triangle(place, triangle);
-}
-template <class N>
-bool may_be_on_surface_of(const collide::Box<N>& box, const GivenPlace<N>& place) {
-  return may_be_on_box(place, box);
-}
-template <class N>
-bool may_be_on_surface_of(const collide::HalfSpace<N>& halfspace, const GivenPlace<N>& place) {
-  return may_be_on_plane(place, halfspace);
 }
 
 }  // namespace

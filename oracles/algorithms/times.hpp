@@ -17,6 +17,16 @@ N any_time() {
   }
 }
 
+/// The end of a motion that never ends: it stands for +infinity, and is beyond every number of a scalar.
+template <class N>
+N unending() {
+  if constexpr (is_enclosure<N>) {
+    return of_bound(std::numeric_limits<double>::infinity());
+  } else {
+    return N(beyond_all_scalars());
+  }
+}
+
 /// The time in which `gap` >= 0 is crossed at `speed`, which is positive in the current branch.
 template <class N>
 N time_across(const N& gap, const N& speed) {

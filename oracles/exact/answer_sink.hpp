@@ -312,9 +312,9 @@ Alternative AnswerSink<N, A>::alternative(bool yes, const A& a, const Normals<N>
 template <class N, class A>
 void AnswerSink<N, A>::add(bool yes, const A& a, const Normals<N>& normals, std::size_t leaves, const SetDistance& set,
                            bool late) {
-  if constexpr (kind_of<A> == Kind::impact) {
+  if constexpr (requires { collide::first_time(a); }) {
     if (yes) {  // a time beyond the largest finite number is a miss
-      const N beyond = a.time - N(largest_finite(scalar_));
+      const N beyond = collide::first_time(a) - N(largest_finite(scalar_));
       if (may_be_positive(beyond)) add(false, A{}, {}, leaves_of_late_hit, {}, true);
       if (!may_be_at_most_zero(beyond)) return;
     }

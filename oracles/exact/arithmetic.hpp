@@ -31,6 +31,13 @@ using Rational = CGAL::Gmpq;
 /// The interval [x, x] of a computed bound, which may be infinite: CGAL's conversion requires a finite number.
 inline Interval of_bound(double x) { return {x, x}; }
 
+/// 2^16384, which stands for +infinity among exact numbers. It is beyond every number of a scalar.
+inline Rational beyond_all_scalars() {
+  Rational x;
+  mpz_setbit(mpq_numref(x.mpq()), 16384);
+  return x;
+}
+
 /// k if the denominator is 2^k, otherwise nothing. Numbers of the input have such denominators, and so have their sums
 /// and products.
 inline std::optional<mp_bitcnt_t> power_of_denominator(const Rational& x) {

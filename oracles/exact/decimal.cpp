@@ -91,6 +91,7 @@ double nearest_number(const Exact& x, Scalar scalar) {
 }
 
 std::string decimal_of(const Exact& x, double nearest, Scalar scalar) {
+  if (equals(x, beyond_all_scalars())) return "inf";
   if (std::isfinite(nearest) && equals(x, Rational(nearest))) return shortest(nearest, scalar);
   const double as_double = scalar == Scalar::float64 ? nearest : nearest_number(x, Scalar::float64);
   if (std::isinf(as_double)) return as_double > 0 ? "> 1.7976931348623157e+308" : "< -1.7976931348623157e+308";
@@ -101,6 +102,7 @@ std::string decimal_of(const Exact& x, double nearest, Scalar scalar) {
 }
 
 std::string decimal_of_digits(const Exact& x, int digits) {
+  if (equals(x, beyond_all_scalars())) return "inf";
   if (equals(x, Rational(0))) return "0";
   constexpr double bits_of_a_digit = 3.33;  // above log2(10)
   constexpr mpfr_prec_t bits_to_spare = 16;

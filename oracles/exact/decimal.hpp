@@ -15,6 +15,7 @@ double nearest_number(const Exact& x, Scalar scalar);
 /// A decimal from which the nearest number of the scalar is read off: the shortest one, as for the numbers of an
 /// answer. It begins with "≈" unless it is exact: x is the very number of the scalar that the decimal denotes, or the
 /// decimal itself. Of a number that is no float it has the digits of the nearest double. `nearest` is nearest_number().
+/// Here and below, the number that stands for +infinity (arithmetic.hpp) is "inf".
 std::string decimal_of(const Exact& x, double nearest, Scalar scalar);
 inline std::string decimal_of(const Exact& x, Scalar scalar) {
   return decimal_of(x, nearest_number(x, scalar), scalar);

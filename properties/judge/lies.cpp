@@ -551,16 +551,48 @@ void moving_point_aabox(Inputs in, Liar& out) {
   constexpr std::size_t location = 1, time = 4;  // after the flag
   entering(m, in.aabox(), time, location, out);
 }
+/// Whether a moving point certainly starts deep in a box, is deep in it at the time `about`, or crosses it.
+struct PassageOfBox {
+  bool starts_in = false, is_in = false, crosses = false;
+};
+PassageOfBox passage_of_box(const Motion& m, const Body& box, Real about) {
+  return {box.depth(m.from.at) > box.slack + m.from.slack,
+          box.depth(m.at(about)) > box.slack + m.from.slack + about * m.velocity.slack, surely_crosses(m, box)};
+}
+/// The last time within the bounds of the body, at least where the point is certainly in it at the time `about`.
+void last_time(const Motion& m, const Body& fixed, Real about, std::size_t leaf, Liar& out) {
+  const Real speed = bodies::length(m.velocity.at) - m.velocity.slack;
+  const Real way = bodies::length(minus(fixed.middle(), m.from.at)) + fixed.size() + fixed.radius + fixed.slack;
+  const Real by = (way + m.from.slack) / std::max<Real>(speed, 0);
+  if (out.is_a_time(by)) out.within(Topic::time, leaf, about, by, 0, true, 0);
+}
+template <Body (Inputs::*fixed)()>
+void span(Inputs in, Liar& out) {
+  constexpr std::size_t enter = 0, exit = 1;
+  const Motion m = in.moving_point();
+  const Body body = (in.*fixed)();
+  const Passage p = passage_of(m, body);
+  if (p.surely_never) return out.surely(false);
+  Real by = p.surely_start_overlapping ? 0 : p.by;
+  bool meets = p.surely_meet || p.surely_start_overlapping;
+  if (body.is_box()) {
+    const Real about = time_of_least_distance(m, body, infinite);
+    const PassageOfBox passage = passage_of_box(m, body, about);
+    meets = passage.starts_in || passage.is_in || passage.crosses;
+    by = passage.starts_in ? 0 : passage.is_in ? about : leaves_flat_box_by(m, body);
+  }
+  if (!meets || !out.is_a_time(by)) return;
+  out.surely(true);
+  out.within(Topic::time, enter, by > 0 ? p.not_before : 0, by, 0, true, 0);
+  last_time(m, body, by > 0 ? p.not_before : 0, exit, out);
+}
 void ray_aabox(Inputs in, Liar& out) {
   const Motion m = in.moving_point();
   const Body box = in.aabox();
   const Passage p = passage_of(m, box);
   if (p.surely_never) return out.surely(false);
-  const Real about = time_of_least_distance(m, box, infinite);
-  const bool starts_in = box.depth(m.from.at) > box.slack + m.from.slack;
-  const bool enters =
-      box.depth(m.at(about)) > box.slack + m.from.slack + about * m.velocity.slack || surely_crosses(m, box);
-  if (!starts_in && !enters) return;
+  const auto [starts_in, is_in, crosses] = passage_of_box(m, box, time_of_least_distance(m, box, infinite));
+  if (!starts_in && !is_in && !crosses) return;
   out.surely(true);
   constexpr std::size_t location = 1;  // after the flag
   contact_place(m, box, 0, starts_in ? 0 : leaves_flat_box_by(m, box), location, out);
@@ -677,6 +709,30 @@ void signed_distance(Inputs in, Liar& out) {
   const Real away = (which == 0 ? a.radius : std::abs(height.at) + height.slack) + a.slack;
   out.within(Topic::place, point_leaf + 3 * which + k, -a.reach(scaled(direction(k), -1)) - away,
              a.reach(direction(k)) + away, size + away);
+}
+/// Where the core is at the time of contact, it is as far from the contact as its radius. At the start it may be
+/// deeper.
+template <Body (Inputs::*first)(), Inputs::HalfSpace (Inputs::*second)()>
+void cast(Inputs in, Liar& out) {
+  const Body a = (in.*first)();
+  const Vector velocity = in.vector();
+  const Inputs::HalfSpace b = (in.*second)();
+  if (!b.is_known()) return;
+  const Number height = b.least_height(a), gap = height - Number{a.radius, 0},
+               approach = Number{0, 0} - dot(unit(b.normal), velocity);
+  const bool starts_apart = surely_positive(gap);
+  if (starts_apart && surely_negative(approach)) return out.surely(false);
+  if (!surely_negative(gap) && !(starts_apart && surely_positive(approach))) return;
+  const Number time = starts_apart ? gap / approach : Number{0, 0};
+  if (!out.is_a_time(time.at + time.slack)) return;
+  out.surely(true);
+  out.about(Topic::time, time_leaf, time, 0, true, 0);
+  const std::size_t k = out.below(3);
+  const Vector way = velocity * time;
+  const Real size = a.size() + bodies::length(a.middle()) + bodies::length(way.at),
+             away = (starts_apart ? a.radius : std::abs(height.at) + height.slack) + a.slack + way.slack;
+  out.within(Topic::place, location_leaf + k, way.at[k] - a.reach(scaled(direction(k), -1)) - away,
+             way.at[k] + a.reach(direction(k)) + away, size + away);
 }
 void sphere_sphere_penetration(Inputs in, Liar& out) {
   const Vector center1 = in.vector();
@@ -853,6 +909,10 @@ constexpr Known known[] = {
     {QueryId::moving_point_box, moving_point_past<&Inputs::box>},
     {QueryId::moving_point_aabox, moving_point_aabox},
     {QueryId::ray_aabox, ray_aabox},
+    {QueryId::moving_point_span_sphere, span<&Inputs::sphere>},
+    {QueryId::moving_point_span_capsule, span<&Inputs::capsule>},
+    {QueryId::moving_point_span_box, span<&Inputs::box>},
+    {QueryId::moving_point_span_aabox, span<&Inputs::aabox>},
     {QueryId::moving_sphere_plane, moving_sphere_plane},
     {QueryId::moving_sphere_triangle, moving_sphere_triangle},
     {QueryId::moving_sphere_rectangle, moving_sphere_rectangle},
@@ -881,6 +941,7 @@ constexpr Known known[] = {
 #define NEARMISS_OVERLAP(first, second) {QueryId::first##_##second##_overlap, overlap<&Inputs::first, &Inputs::second>},
 #define NEARMISS_SIGNED_DISTANCE(first, second) \
   {QueryId::first##_##second##_signed_distance, signed_distance<&Inputs::first, &Inputs::second>},
+#define NEARMISS_CAST_AS(query, first, second) {QueryId::query, cast<&Inputs::first, &Inputs::second>},
 #include "impl/catalogue/grid.def"
 };
 

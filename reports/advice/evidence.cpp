@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "oracles/motion_numbers.hpp"
 #include "oracles/requirements.hpp"
 #include "reports/engine/interrupt.hpp"
 
@@ -36,12 +37,13 @@ double error_at_most(const Case& question, const Answer& answer, const Finding& 
 }
 
 /// True where every number that the answer gives has a value to compare: a miss gives an infinite time and no other.
+/// The time of leaving may be infinite.
 bool is_regular(const Query& query, const Answer& answer) {
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
     if (!answer.gives(i)) continue;
     if (query.kind == Kind::impact && !answer.yes) {
       if (query.outputs[i].role == Role::time && answer.values[i] != HUGE_VAL) return false;
-    } else if (!std::isfinite(answer.values[i])) {
+    } else if (!std::isfinite(answer.values[i]) && !(answer.values[i] == HUGE_VAL && is_time_of_leaving(query, i))) {
       return false;
     }
   }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "impl/subject/contained.hpp"
+#include "oracles/motion_numbers.hpp"
 #include "reports/findings/text.hpp"
 
 namespace nearmiss {
@@ -102,7 +103,7 @@ SweepAsker::SweepAsker(const Slice& slice, const Subject& subject)
       values_(slice.question().values),
       question_(slice.question()) {
   for (std::size_t i = 0; i < outputs_; ++i) {
-    if (slice.query().outputs[i].role == Role::time) time_ = i;
+    if (slice.query().outputs[i].role == Role::time && !time_) time_ = i;
   }
 }
 
@@ -127,11 +128,12 @@ void SweepAsker::ask_all(std::uint64_t begin, std::uint64_t end, bool yes) {
 }
 
 /// A number that is given and is not finite, or a negative time. The numbers of a miss mean nothing, except its time,
-/// which may be infinite.
+/// which may be infinite, as the time of leaving may be.
 bool SweepAsker::has_bad_number(const Answer& a) const {
   if (slice_.query().kind == Kind::impact && !a.yes) return time_ && !(a.values[*time_] >= 0);
   for (std::size_t i = 0; i < outputs_; ++i) {
-    if (!std::isfinite(a.values[i]) && a.gives(i)) return true;
+    const bool never_leaves = a.values[i] == HUGE_VAL && is_time_of_leaving(slice_.query(), i);
+    if (!std::isfinite(a.values[i]) && a.gives(i) && !never_leaves) return true;
   }
   return time_ && a.values[*time_] < 0;
 }

@@ -18,14 +18,10 @@ namespace {
 Case placed_at(const Case& question, const Link& link, double time) {
   Case there = question;
   there.scalar = Scalar::float64;
-  const auto fields = question.fields();
-  const auto first = [&](Role role) {
-    return std::size_t(std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.role == role; }) -
-                       fields.begin());
-  };
-  const std::size_t place = first(Role::position),
-                    velocity = first(Role::velocity);  // of the moving body, which is the first operand
-  for (std::size_t k = 0; k < 3; ++k) there.values[place + k] += question.values[velocity + k] * time;
+  const Operand& mover = question.operands()[0];
+  for (const std::size_t place : mover.positions) {
+    for (std::size_t k = 0; k < 3; ++k) there.values[place + k] += question.values[*mover.velocity + k] * time;
+  }
   return metamorphic::recast(there, link);
 }
 

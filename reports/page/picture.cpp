@@ -87,7 +87,7 @@ PictureContact contact_in(const Query& query, const nlohmann::json& values) {
   for (std::size_t p = 0; p < query.layout.parts.size(); ++p) {
     const Layout::Part& part = query.layout.parts[p];
     const std::string& name = part.name;
-    if (part.role == Role::time) {
+    if (part.role == Role::time && !c.time) {
       if (const nlohmann::json* t = value_at(values, name)) c.time = bounds_in(*t);
     }
     if (part.end - part.begin != 3 || !has_meaning(query, p, values)) continue;

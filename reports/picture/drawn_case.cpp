@@ -51,7 +51,7 @@ DrawnContact contact_of(const Query& query, bool yes, const GivenNumbers& number
     for (std::size_t i = part.begin; i < part.end; ++i) is_given = is_given && numbers.are_given[i];
     if (!is_given) continue;
     const double* at = numbers.values.data() + part.begin;
-    if (part.role == Role::time) c.time = at[0];
+    if (part.role == Role::time && !c.time) c.time = at[0];
     if (part.role == Role::depth) c.depth = at[0];
     if (!part.is_vector() || query.traits.frame == OutputFrame::operands) continue;
     const PictureVector v{at[0], at[1], at[2]};

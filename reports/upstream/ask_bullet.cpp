@@ -83,6 +83,11 @@ constexpr std::string_view cast_helpers = R"(btTransform at(double x, double y, 
   return btTransform(btQuaternion::getIdentity(), btVector3(x, y, z));
 }
 )";
+constexpr std::string_view sweep_helpers = R"(btTransform moved(const btTransform& from, double x, double y, double z) {
+  const btVector3& at = from.getOrigin();
+  return btTransform(from.getBasis(), btVector3(btScalar(at.x() + x), btScalar(at.y() + y), btScalar(at.z() + z)));
+}
+)";
 
 constexpr std::string_view triangle_helpers = R"(struct Nearest : btTriangleRaycastCallback {
   using btTriangleRaycastCallback::btTriangleRaycastCallback;
@@ -100,16 +105,16 @@ bool fits(const Vec3<double>& v, Scalar scalar) {
   return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
 }
 
-/// $from, $end and $duration of a cast that carries the body past the target.
-Words cast_of(const Moving& m, const TypedShape& target, Scalar scalar) {
-  const Sphere<double> to = ball_around(target);
-  const double speed = adapters::length(m.velocity);
-  double duration = adapters::time_to_pass(m.from, m.radius, m.velocity, to);
-  if (!(duration > 0) && speed > 0) duration = adapters::power_of_two_above((to.radius > 0 ? to.radius : 1.0) / speed);
-  const Vec3<double> end = m.from + m.velocity * duration;
+/// $from, $end, $way and $duration of a cast that carries the body past the target.
+Words cast_of(const Moving& m, const NamedShape& target, Scalar scalar) {
+  const double speed = adapters::length(m.velocity),
+               size = is_a<HalfSpace>(target) ? m.radius : ball_around(target.shape).radius;
+  double duration = time_to_pass(m, target);
+  if (!(duration > 0) && speed > 0) duration = adapters::power_of_two_above((size > 0 ? size : 1.0) / speed);
+  const Vec3<double> way = m.velocity * duration, end = m.from + way;
   if (duration == 0 || !fits(end, scalar))
     throw BadInput("Bullet cannot be asked: a cast has two ends, apart and finite");
-  return {{"from", literals(m.from)}, {"end", literals(end)}, {"duration", literal(duration)}};
+  return {{"from", literals(m.from)}, {"end", literals(end)}, {"way", literals(way)}, {"duration", literal(duration)}};
 }
 
 constexpr std::string_view overlap = R"(const Deepest deepest = deepest_contact($a, $a_pose, $b, $b_pose);
@@ -133,9 +138,10 @@ constexpr std::string_view sweep = R"(btVoronoiSimplexSolver simplex;
 btGjkEpaPenetrationDepthSolver epa;
 btContinuousConvexCollision cast(&$a, &$b, &simplex, &epa);
 )";
+constexpr std::string_view sweep_to_plane = "btContinuousConvexCollision cast(&$a, &$b);\n";
 constexpr std::string_view cast_result = R"(btConvexCast::CastResult result;
 result.m_fraction = 1;
-got_yes = cast.calcTimeOfImpact(at($from), at($end), $b_pose, $b_pose, result);
+got_yes = cast.calcTimeOfImpact($first_pose, $last_pose, $b_pose, $b_pose, result);
 if (got_yes) {
   got_time = result.m_fraction * $duration;
   for (int k = 0; k < 3; ++k) got_normal[k] = result.m_normal[k];
@@ -194,13 +200,15 @@ if (deepest.any) {
 
 Asking point_motion(const CaseShapes& shapes, Scalar scalar) {
   const NamedShape b = target_of(shapes);
-  const Words cast = cast_of(moving_of(shapes), b.shape, scalar);
+  Words cast = cast_of(moving_of(shapes), b, scalar);
   if (is_a<Triangle>(b)) {
     return {.helpers = std::string(triangle_helpers),
             .statements = nearmiss::declared(b, points_of_triangle, "Bullet") + call(triangle_ray, b, b, cast),
             .members = {"time", "normal"}};
   }
   if (is_a<AABox>(b)) return {.statements = declared(b) + filled_in(aabox_ray, cast), .members = {"time"}};
+  cast.push_back({"first_pose", filled_in("at($from)", cast)});
+  cast.push_back({"last_pose", filled_in("at($end)", cast)});
   return {.helpers = std::string(cast_helpers),
           .statements = declared(b) + call(point_cast, b, b) + call(cast_result, b, b, cast),
           .members = {"time", "normal"}};
@@ -222,11 +230,13 @@ Asking asking_of(const Case& question) {
     return {.statements = declared(a) + declared(b) + call(sphere_triangle, a, b)};
   Asking asking{.helpers = std::string(contact_helpers), .statements = declared(a) + declared(b) + call(overlap, a, b)};
   if (shapes.has("velocity.x")) {
-    const Words cast = cast_of(moving_of(shapes), b.shape, question.scalar);
-    asking.helpers += "\n" + std::string(cast_helpers);
+    Words cast = cast_of(moving_of(shapes), b, question.scalar);
+    cast.push_back({"first_pose", a.name + "_pose"});
+    cast.push_back({"last_pose", filled_in("moved(" + a.name + "_pose, $way)", cast)});
+    asking.helpers += "\n" + std::string(sweep_helpers);
     asking.statements +=
         "if (got_yes) {  // Bullet's sweeps miss a shape in which they start\n  got_time = 0;\n} else {\n" +
-        indented(call(sweep, a, b) + call(cast_result, a, b, cast)) + "}\n";
+        indented(call(is_a<HalfSpace>(b) ? sweep_to_plane : sweep, a, b) + call(cast_result, a, b, cast)) + "}\n";
     asking.members = {"time", "normal"};
   } else if (question.query->kind == Kind::depth) {
     asking.statements += filled_in(depth, {{"side", is_a<Plane>(b) ? "deepest" : "-deepest"}});

@@ -94,30 +94,33 @@ constexpr std::string_view distance_of_triangle =
 constexpr std::string_view depth_unknown =
     "if (!(got_distance > 0)) got_distance = NAN;  // FCL tells no depth of a triangle\n";
 
-constexpr std::string_view sweep = R"(const double duration = $horizon;  // carries the sphere past
+constexpr std::string_view sweep = R"(const double duration = $horizon;  // carries the $what past
+fcl::Transform3d end = $a_pose;
+end.translation() += fcl::Vector3d($way);
 fcl::ContinuousCollisionRequestd request;
 request.gjk_solver_type = $solver;
 request.ccd_solver_type = $by;
 fcl::ContinuousCollisionResultd result;
-fcl::continuousCollide(&$a, $a_pose, at($end), &$b, $b_pose, $b_pose, request, result);
+fcl::continuousCollide(&$a, $a_pose, end, &$b, $b_pose, $b_pose, request, result);
 got_yes = result.is_collide;
 if (got_yes) got_time = result.time_of_contact * duration;
 )";
 
-std::string motion(const Moving& moving, const NamedShape& sphere, const NamedShape& target, const std::string& solver,
+std::string motion(const Moving& moving, const NamedShape& mover, const NamedShape& target, const std::string& solver,
                    bool naive) {
   const double horizon = time_to_pass(moving, target);
   if (horizon == 0) {
-    return call(decision, sphere, target, {{"solver", solver}}) +
-           "if (got_yes) got_time = 0;  // the sphere moves no nearer\n";
+    return call(decision, mover, target, {{"solver", solver}}) +
+           fmt::format("if (got_yes) got_time = 0;  // the {} moves no nearer\n", mover.name);
   }
-  const Vec3<double> end = moving.from + moving.velocity * horizon;
-  if (!adapters::finite(end)) throw BadInput(adapters::no_end);
-  return call(sweep, sphere, target,
+  const Vec3<double> way = moving.velocity * horizon;
+  if (!adapters::finite(moving.from + way)) throw BadInput(adapters::no_end);
+  return call(sweep, mover, target,
               {{"horizon", literal(horizon)},
                {"solver", solver},
                {"by", naive ? "fcl::CCDC_NAIVE" : "fcl::CCDC_CONSERVATIVE_ADVANCEMENT"},
-               {"end", literals(end)}});
+               {"what", mover.name},
+               {"way", literals(way)}});
 }
 
 }  // namespace

@@ -224,7 +224,8 @@ collide::Capsule<double> way_of_sphere(const CaseShapes& shapes) {
 
 Moving moving_of(const CaseShapes& shapes) {
   if (shapes.has("point.x")) return {shapes.vector("point"), 0, shapes.vector("velocity")};
-  return {shapes.vector("sphere.center"), shapes.number("sphere.radius"), shapes.vector("velocity")};
+  const collide::Sphere<double> ball = ball_around(shapes.operands().front().shape);
+  return {ball.center, ball.radius, shapes.vector("velocity")};
 }
 
 NamedShape target_of(const CaseShapes& shapes) {
@@ -243,9 +244,14 @@ collide::Sphere<double> ball_around(const TypedShape& shape) {
 }
 
 double time_to_pass(const Moving& moving, const NamedShape& target) {
-  if (const auto* plane = std::get_if<collide::Plane<double>>(&target.shape))
-    return adapters::time_to_pass(moving.from, moving.radius, moving.velocity, *plane);
-  return adapters::time_to_pass(moving.from, moving.radius, moving.velocity, ball_around(target.shape));
+  return std::visit(
+      [&](const auto& shape) -> double {
+        const auto bound = adapters::bound_of(shape);
+        if constexpr (requires { adapters::time_to_pass(moving.from, moving.radius, moving.velocity, bound); })
+          return adapters::time_to_pass(moving.from, moving.radius, moving.velocity, bound);
+        throw std::logic_error("a shape without a bound");
+      },
+      target.shape);
 }
 
 std::pair<NamedShape, NamedShape> sides_of(const CaseShapes& shapes) {

@@ -89,7 +89,7 @@ std::string flag_of(std::string_view member);
 
 /// What the sphere of a motion with a limit sweeps. Throws BadInput where its end is not finite.
 collide::Capsule<double> way_of_sphere(const CaseShapes& shapes);
-/// The sphere, point or radius that moves, in the forms that adapters cast.
+/// A ball around the shape that moves, by which adapters choose the length of a cast.
 struct Moving {
   collide::Vec3<double> from;
   double radius;

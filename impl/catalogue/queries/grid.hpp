@@ -1,4 +1,5 @@
-/// The queries of grid.def: whether two shapes overlap, and their signed distance.
+/// The queries of grid.def: whether two shapes overlap, their signed distance, and when and where one that moves meets
+/// the other.
 #pragma once
 
 #include <array>
@@ -151,6 +152,24 @@ constexpr Link distance_of_capsule_halfspace[] = {
 constexpr Link distance_of_triangle_halfspace[] = {decided_by(query_id("triangle_halfspace_overlap"))};
 constexpr Link distance_of_box_halfspace[] = {decided_by(query_id("box_halfspace_overlap"))};
 
+constexpr Link at_rest(QueryId overlap) { return {.kind = Link::Kind::at_rest, .to = overlap}; }
+
+/// The links of a cast, by its shapes.
+constexpr Link cast_of_point_halfspace[] = {at_rest(query_id("point_halfspace_overlap"))};
+constexpr Link cast_of_sphere_halfspace[] = {
+    at_rest(query_id("sphere_halfspace_overlap")),
+    as_point(query_id("moving_point_halfspace"), {{{"point", "sphere.center"}}})};
+constexpr Link cast_of_segment_halfspace[] = {at_rest(query_id("segment_halfspace_overlap"))};
+constexpr Link cast_of_capsule_halfspace[] = {
+    at_rest(query_id("capsule_halfspace_overlap")),
+    as_sphere(query_id("moving_sphere_halfspace"),
+              {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}}})};
+constexpr Link cast_of_triangle_halfspace[] = {at_rest(query_id("triangle_halfspace_overlap"))};
+constexpr Link cast_of_box_halfspace[] = {at_rest(query_id("box_halfspace_overlap")),
+                                          {.kind = Link::Kind::box_as_point,
+                                           .to = query_id("moving_sphere_halfspace"),
+                                           .renamed = {{{"sphere.center", "box.center"}, {"sphere.radius", "-"}}}}};
+
 }  // namespace grid
 
 #define NEARMISS_OVERLAP(first, second)                                                                   \
@@ -193,6 +212,29 @@ constexpr Link distance_of_box_halfspace[] = {decided_by(query_id("box_halfspace
     static constexpr Traits traits{.exchange = alike ? Exchange::always : Exchange::none,                         \
                                    .ties = grid::ties_of(#first, #second),                                        \
                                    .links = grid::distance_of_##first##_##second};                                \
+  };
+#include "impl/catalogue/grid.def"
+
+#define NEARMISS_CAST_AS(query, first, second)                                                 \
+  template <class T>                                                                           \
+  struct query {                                                                               \
+    using Answer = collide::Impact<T>;                                                         \
+                                                                                               \
+    grid::first<T> a{};                                                                        \
+    Vec3<T> velocity{};                                                                        \
+    grid::second<T> b{};                                                                       \
+                                                                                               \
+    static constexpr bool alike = std::string_view(#first) == #second;                         \
+    static constexpr auto members() {                                                          \
+      return std::tuple(member(#first, &query::a, grid::role_of(#first)),                      \
+                        member("velocity", &query::velocity, Role::velocity),                  \
+                        member(alike ? "fixed" : #second, &query::b, grid::role_of(#second))); \
+    }                                                                                          \
+                                                                                               \
+    static constexpr Traits traits{.grows = grid::has_size(#first) || grid::has_size(#second), \
+                                   .ties = grid::ties_of(#first, #second),                     \
+                                   .balance = grid::balance_of(#second),                       \
+                                   .links = grid::cast_of_##first##_##second};                 \
   };
 #include "impl/catalogue/grid.def"
 

@@ -20,6 +20,7 @@ struct moving_point_aabox {
   }
 
   static constexpr Link links[] = {
+      {.kind = Link::Kind::implied_decision, .to = query_id("moving_point_span_aabox")},
       {.kind = Link::Kind::implied_decision,
        .to = query_id("ray_aabox"),
        .renamed = {{{"ray.origin", "point"}, {"ray.direction", "velocity"}}}},

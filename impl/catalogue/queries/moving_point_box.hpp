@@ -20,6 +20,7 @@ struct moving_point_box {
   }
 
   static constexpr Link links[] = {
+      {.kind = Link::Kind::implied_decision, .to = query_id("moving_point_span_box")},
       {.kind = Link::Kind::at_rest,
        .to = query_id("sphere_box_overlap"),
        .renamed = {{{"sphere.center", "point"}, {"sphere.radius", "-"}}}},

@@ -25,6 +25,7 @@ struct moving_point_capsule {
        .renamed = {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}}},
        .set = {"solid", 1},
        .times_alone = true},
+      {.kind = Link::Kind::implied_decision, .to = query_id("moving_point_span_capsule")},
   };
   static constexpr Traits traits{.ties = {Tie::cone}, .links = links};
 };

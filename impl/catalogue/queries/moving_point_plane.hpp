@@ -26,6 +26,9 @@ struct moving_point_plane {
       {.kind = Link::Kind::at_rest,
        .to = query_id("sphere_plane_penetration"),
        .renamed = {{{"sphere.center", "point"}, {"sphere.radius", "-"}}}},
+      {.kind = Link::Kind::implied_decision,
+       .to = query_id("moving_point_halfspace"),
+       .renamed = {{{"halfspace", "plane"}}}},
   };
   static constexpr Traits traits{.one_sided = true, .links = links};
 };

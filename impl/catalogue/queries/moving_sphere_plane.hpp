@@ -21,6 +21,9 @@ struct moving_sphere_plane {
 
   static constexpr Link links[] = {
       {.kind = Link::Kind::at_rest, .to = query_id("sphere_plane_penetration")},
+      {.kind = Link::Kind::implied_decision,
+       .to = query_id("moving_sphere_halfspace"),
+       .renamed = {{{"halfspace", "plane"}}}},
   };
   static constexpr Traits traits{.one_sided = true, .grows = true, .ties = {Tie::normal}, .links = links};
 };

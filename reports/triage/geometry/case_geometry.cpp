@@ -117,7 +117,7 @@ class GeometryReader {
     const std::string name = "the answer's " + q_.layout.parts[k].name;
     if (p.role == Role::position && is_vector) g_.places.push_back({name, "", v, known});
     if (p.role == Role::normal && is_vector) g_.directions.push_back({name, v, known});
-    if (p.role == Role::time) g_.time = std::max(0.0L, value(p.begin));
+    if (p.role == Role::time && &p == q_.layout.at(Role::time)) g_.time = std::max(0.0L, value(p.begin));
     if (p.role == Role::depth || p.role == Role::distance) g_.depth = std::abs(value(p.begin));
     if (p.role != Role::weight && p.role != Role::direction) return;
     for (std::size_t i = p.begin; i < p.end; ++i) g_.weights.emplace_back(q_.outputs[i].name, std::abs(value(i)));

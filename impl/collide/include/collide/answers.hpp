@@ -126,6 +126,35 @@ struct Entry {
   }
 };
 
+/// The times t >= 0 at which a moving point is in a convex solid: an interval, both ends included.
+template <class T>
+struct Span {
+  T enter{};  ///< displacement = velocity * time; 0: it starts in the solid; 0 for a miss
+  T exit{};  ///< not before `enter`; equal: a touch; +infinity: it stays, or leaves later than any number; 0 for a miss
+  bool decision = false;
+
+  static constexpr Span miss() { return {}; }
+  [[nodiscard]] constexpr bool yes() const { return decision; }
+  static constexpr auto decision_member() { return &Span::decision; }
+  static constexpr auto members() {
+    return std::tuple(member("enter", &Span::enter, Role::time), member("exit", &Span::exit, Role::time));
+  }
+};
+
+/// The time at which the event of a motion begins: that of a contact, or the first one of a span.
+template <class A>
+  requires requires(const A& answer) {
+    A::miss();
+    answer.time;
+  }
+constexpr const auto& first_time(const A& answer) {
+  return answer.time;
+}
+template <class T>
+constexpr const T& first_time(const Span<T>& span) {
+  return span.enter;
+}
+
 /// The point of a shape closest to a given point.
 template <class T>
 struct ClosestPoint {

@@ -270,11 +270,8 @@ struct Accurate : Compensated {
       A answer{};
       convert(wide, answer, [](double from, float& to) { to = static_cast<float>(from); });
       keep_sign_of_depth(wide.yes(), answer);
-      if constexpr (requires {
-                      answer.time;
-                      A::miss();
-                    }) {
-        if (wide.yes() && wide.time > double(std::numeric_limits<float>::max())) return A::miss();
+      if constexpr (requires { first_time(wide); }) {
+        if (wide.yes() && first_time(wide) > double(std::numeric_limits<float>::max())) return A::miss();
       }
       return answer;
     } else {

@@ -101,24 +101,48 @@ inline Vec3<T> outward(const Vec3<T>& away, const Vec3<T>& velocity) {
   return outward_of_any_length<Tier>(away, velocity);
 }
 
-/// The time at which a point outside a ball reaches its surface; negative if it never does. `from` is the vector from
-/// the center to the point. Also works in two dimensions, with all vectors in one plane.
+/// Where a line of motion is nearest to the center of a ball.
+template <class T>
+struct ClosestApproach {
+  T time;    ///< negative where it lies behind the start
+  T chord2;  ///< the square of half the chord in the ball; negative where the line misses it
+};
+
+/// `from` is the vector from the center to the point, `closing` is -from . velocity, and `speed2` is |velocity|^2, not
+/// 0. Also works in two dimensions, with all vectors in one plane.
 ///
 /// Source: the discriminant computed from the distance between the center and the line of motion (Haines, Guenther,
 /// Akenine-Moeller, Precision Improvements for Ray/Sphere Intersection, 2019). Near a tangent, the textbook quotient
 /// loses the digits that the square of the radius loses. This difference has an error of 1 eps of the distance to the
 /// closest approach.
 template <class Tier, class T>
+ClosestApproach<T> closest_approach(const Vec3<T>& from, const Vec3<T>& velocity, const T& closing, const T& speed2,
+                                    const T& radius) {
+  const T time = closing / speed2;
+  const Vec3<T> offset = from + velocity * time;
+  return {time, -Tier::beyond_radius(offset, radius)};
+}
+
+/// The time at which a point outside a ball reaches its surface; negative if it never does. `from` is the vector from
+/// the center to the point. Also works in two dimensions, with all vectors in one plane.
+template <class Tier, class T>
 T time_to_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& radius) {
   using detail::sqrt;
   const T closing = -Tier::dot(from, velocity);
   const T speed2 = Tier::dot(velocity, velocity);
   if (!(closing > T(0) && speed2 > T(0))) return T(-1);
-  const T nearest = closing / speed2;  // time of the closest approach
-  const Vec3<T> offset = from + velocity * nearest;
-  const T chord2 = -Tier::beyond_radius(offset, radius);
+  const auto [nearest, chord2] = closest_approach<Tier>(from, velocity, closing, speed2, radius);
   if (!(chord2 >= T(0))) return T(-1);
   return positive_part(nearest - sqrt(chord2) / sqrt(speed2));
+}
+
+/// The time at which a point in a ball, or on its surface, is on the surface for the last time; `speed2` is
+/// |velocity|^2, not 0. The other arguments are those of time_to_ball.
+template <class Tier, class T>
+T time_out_of_ball(const Vec3<T>& from, const Vec3<T>& velocity, const T& speed2, const T& radius) {
+  using detail::sqrt;
+  const auto [nearest, chord2] = closest_approach<Tier>(from, velocity, T(-Tier::dot(from, velocity)), speed2, radius);
+  return positive_part(nearest + sqrt(positive_part(chord2)) / sqrt(speed2));
 }
 
 /// A decision by a filter.

@@ -26,7 +26,6 @@ inline Impact<T> contact_on_sphere(const Vec3<T>& point, const Vec3<T>& velocity
 template <class Tier, class T>
 COLLIDE_COLD Impact<T> moving_point_from_inside(const Vec3<T>& point, const Vec3<T>& velocity, const Sphere<T>& sphere,
                                                 bool solid) {
-  using detail::sqrt;
   if constexpr (MachineNumber<T>) {  // outside, a number that is not finite makes the chord infinite or NaN
     if (!all_finite(point, velocity, sphere)) return Impact<T>::miss();
   }
@@ -34,10 +33,7 @@ COLLIDE_COLD Impact<T> moving_point_from_inside(const Vec3<T>& point, const Vec3
   if (solid) return contact(T(0), point, outward<Tier>(m, velocity));
   const T speed2 = Tier::dot(velocity, velocity);
   if (!(speed2 > T(0))) return Impact<T>::miss();
-  const T nearest = -Tier::dot(m, velocity) / speed2;  // time of the closest approach
-  const T chord2 = -Tier::beyond_radius(m + velocity * nearest, sphere.radius);
-  const T time = positive_part(nearest + sqrt(positive_part(chord2)) / sqrt(speed2));
-  return contact_on_sphere<Tier>(point, velocity, sphere, time);
+  return contact_on_sphere<Tier>(point, velocity, sphere, time_out_of_ball<Tier>(m, velocity, speed2, sphere.radius));
 }
 
 }  // namespace detail
