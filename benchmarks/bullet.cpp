@@ -123,7 +123,9 @@ LibraryAnswer told(const std::optional<BulletHit>& hit) {
 }
 
 /// A sphere that moves from its start to past the shape, or a point, as Bullet's ray tests cast it.
-template <class B, std::optional<BulletHit> (BulletMotion<Sphere, B>::*cast)() const>
+template <class B>
+using SphereMotion = BulletMotion<collide::Sphere<double>, B>;
+template <class B, std::optional<BulletHit> (SphereMotion<B>::*cast)() const>
 struct Motion {
   template <class Q>
   explicit Motion(const Q& q) : Motion(mover(q), q.velocity, target(q)) {}
@@ -144,7 +146,7 @@ struct Motion {
   static const B& target(const Q& q) {
     return std::get<std::tuple_size_v<ShapesOf<Q>> - 1>(shapes_of(q));
   }
-  BulletMotion<Sphere, B> motion;
+  SphereMotion<B> motion;
 };
 
 void keep_contact(const btVector3& from, const btVector3& to, btScalar fraction) {
@@ -212,7 +214,7 @@ void enter_query(const char* name) {
       enter(std::type_identity<AABoxSlabs>(), "slabs");
     }
   } else if constexpr (AsksBallMotion<Q> && BulletKnows<Second<Q>>) {
-    using Shot = BulletMotion<Sphere, Second<Q>>;
+    using Shot = SphereMotion<Second<Q>>;
     if constexpr (!is_plane<Second<Q>> && !is_halfspace<Second<Q>>)
       enter(std::type_identity<Motion<Second<Q>, &Shot::subsimplex>>(), "subsimplex");
     enter(std::type_identity<Motion<Second<Q>, &Shot::continuous>>(), "continuous");
@@ -221,7 +223,7 @@ void enter_query(const char* name) {
   } else if constexpr (AsksPointMotion<Q> && is_aabox<First<Q>>) {
     enter(std::type_identity<RayTest<BulletAABoxRay>>(), "outcodes");
   } else if constexpr (AsksPointMotion<Q> && BulletKnows<First<Q>> && !is_plane<First<Q>> && !is_halfspace<First<Q>>) {
-    enter(std::type_identity<Motion<First<Q>, &BulletMotion<Sphere, First<Q>>::subsimplex>>(), "subsimplex");
+    enter(std::type_identity<Motion<First<Q>, &SphereMotion<First<Q>>::subsimplex>>(), "subsimplex");
   }
 }
 

@@ -32,7 +32,8 @@ class Rules {
 
   std::string broken() const {
     if (query_.kind == Kind::decision) return limit_of_time();
-    if (query_.kind != Kind::impact || !start_ || parts_.velocities.empty()) return "";
+    if (query_.kind != Kind::impact || parts_.velocities.empty()) return "";
+    if (!start_) return of_touch();
     return query_.traits.one_sided ? of_front() : of_start();
   }
 
@@ -119,10 +120,13 @@ class Rules {
   std::string of_start() const {
     if (meets(c_, Precondition::starts_outside)) return "";
     if (start_->obstacle.shape == Shape::aabox) return fmt::format("{} starts in {}", one(), other());
-    if (exact_decision(at_rest())) return fmt::format("{} starts in touch with {} and moves away", one(), other());
+    if (const std::string touch = of_touch(); !touch.empty()) return touch;
     if (start_->obstacle.shape == Shape::sphere && input_named(c_, "solid"))
       return fmt::format("{} does not move, and so never leaves {}", one(), other());
     return fmt::format("{} starts inside {}", one(), other());
+  }
+  std::string of_touch() const {
+    return exact_decision(at_rest()) ? fmt::format("{} starts in touch with {} and moves away", one(), other()) : "";
   }
   Case at_rest() const {
     Case still = c_;
