@@ -83,8 +83,12 @@ inline Impact<T> cast_against_half_space(const A& a, const Vec3<T>& velocity, co
   const T time = starts_in_contact ? T(0) : gap / approach;
   const Vec3<T> normal = halfspace.normal / norm;
   Vec3<T> foot = (deepest + velocity * time) - normal * (starts_in_contact ? height / norm : radius);
-  // The rounding errors are those of a vertex that may be far away: a second pass removes them.
-  if constexpr (MachineNumber<T>) foot = foot - normal * (detail::height_above<Tier>(halfspace, foot) / norm);
+  // The rounding errors are those of a vertex that may be far away: a second pass removes them. A place that overflows
+  // has none.
+  if constexpr (MachineNumber<T>) {
+    const T off = detail::height_above<Tier>(halfspace, foot) / norm;
+    if (detail::abs(off) <= std::numeric_limits<T>::max()) foot = foot - normal * off;
+  }
   return detail::contact(time, foot, normal);
 }
 
