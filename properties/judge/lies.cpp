@@ -710,6 +710,79 @@ void signed_distance(Inputs in, Liar& out) {
   out.within(Topic::place, point_leaf + 3 * which + k, -a.reach(scaled(direction(k), -1)) - away,
              a.reach(direction(k)) + away, size + away);
 }
+/// What is certain about two bodies of which the first one moves.
+struct Meeting {
+  bool surely_never = false, surely_meet = false;
+  Real not_before = 0, by = infinite;
+};
+Meeting meeting_of(const Body& a, const Vector& velocity, const Body& b) {
+  Meeting m;
+  const Real speed = bodies::length(velocity.at);
+  const auto at = [&](Real t) {
+    Body then = a;
+    for (Point& c : then.corners) c = plus(c, velocity.at, t);
+    then.center = plus(a.center, velocity.at, t), then.slack += t * velocity.slack;
+    return then;
+  };
+  const auto way_at = [&](Real t) {
+    const Gap g = gap_of(at(t), b);
+    return minus(g.to, g.from);
+  };
+  const auto overlaps = [&](Real t) { return surely_overlap(at(t), b, gap_of(at(t), b)); };
+  const auto consider = [&](const Point& u) {
+    const Real n = bodies::length(u), gap = gap_along(a, b, u) - a.slack - b.slack;
+    if (!(n > 0) || !(gap > 0)) return;
+    const Real closing = bodies::dot(u, velocity.at) / n + velocity.slack;
+    m.not_before = std::max(m.not_before, closing > 0 ? gap / closing : infinite);
+  };
+  constexpr int steps = 50;
+  Real low = 0, least = 0;
+  if (speed > 0) {
+    Real high = 2 * (bodies::length(minus(b.middle(), a.middle())) + a.size() + b.size()) / speed;
+    for (int i = 0; i < steps; ++i) {
+      least = 0.5L * (low + high);
+      (bodies::dot(velocity.at, way_at(least)) > 0 ? low : high) = least;
+    }
+  }
+  m.surely_meet = overlaps(least);
+  if (m.surely_meet) {
+    m.by = least, low = 0;
+    for (int i = 0; i < steps; ++i) {
+      const Real t = 0.5L * (low + m.by);
+      (overlaps(t) ? m.by : low) = t;
+    }
+  }
+  const Real about = m.surely_meet ? m.by : least;
+  const Point nearest = way_at(least);
+  consider(way_at(0));
+  for (int k = 0; k < 40; k += 2) {
+    consider(way_at(about * (1 - std::ldexp(Real(1), -k))));
+    // Past each other: a direction tilted against the motion.
+    if (speed > 0) consider(plus(nearest, velocity.at, -std::ldexp(bodies::length(nearest) / speed, -k)));
+  }
+  m.surely_never = m.not_before == infinite;
+  return m;
+}
+template <Body (Inputs::*first)(), Body (Inputs::*second)()>
+void cast(Inputs in, Liar& out) {
+  const Body a = (in.*first)();
+  const Vector velocity = in.vector();
+  const Body b = (in.*second)();
+  const Gap start = gap_of(a, b);
+  const bool overlap = surely_overlap(a, b, start);
+  Meeting m;
+  if (!overlap) m = meeting_of(a, velocity, b);
+  if (m.surely_never) return out.surely(false);
+  if (!overlap && !(surely_apart(a, b, start) && m.surely_meet && m.not_before <= m.by)) return;
+  const Real from = overlap ? 0 : m.not_before, to = overlap ? 0 : m.by;
+  if (!out.is_a_time(to)) return;
+  out.surely(true);
+  out.within(Topic::time, time_leaf, from, to, 0, true, 0);
+  const std::size_t k = out.below(3);
+  const Real thick = b.radius + b.slack;
+  out.within(Topic::place, location_leaf + k, -b.reach(scaled(direction(k), -1)) - thick, b.reach(direction(k)) + thick,
+             b.size() + bodies::length(b.middle()) + thick);
+}
 /// Where the core is at the time of contact, it is as far from the contact as its radius. At the start it may be
 /// deeper.
 template <Body (Inputs::*first)(), Inputs::HalfSpace (Inputs::*second)()>

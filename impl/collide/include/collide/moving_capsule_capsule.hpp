@@ -1,0 +1,24 @@
+/// The time and place at which a moving capsule meets another one.
+#pragma once
+
+#include <collide/capsule_capsule_signed_distance.hpp>
+#include <collide/detail/casts.hpp>
+
+namespace collide {
+
+/// The first contact of `capsule`, moving by `velocity` per unit of time, with `fixed`. A radius of 0 is allowed. A
+/// capsule whose ends are equal is a sphere.
+///
+/// An overlap at the start is a contact at time 0. A touch at the start is one too, unless the capsule moves away.
+/// Without a contact the answer is a miss.
+///
+/// 1. location is a point of `fixed` that the capsule touches at that time; of shapes that overlap at the start, one
+/// that is
+///    deepest
+/// 2. normal is a unit vector from `fixed` to `capsule` that no point of either is beyond, as for the signed distance
+///
+/// Units: lengths; velocity is length per unit of time. Never fails. Non-finite input: a miss. Source:
+/// detail/casts.hpp.
+COLLIDE_CAST(256, moving_capsule_capsule, capsule_capsule_signed_distance, Capsule, capsule, Capsule, fixed)
+
+}  // namespace collide
