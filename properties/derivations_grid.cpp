@@ -292,17 +292,13 @@ const std::vector<V>& nearest_faces(const std::vector<V>& points) {
   return nearest;
 }
 
-/// A right pair of points of two cores, and a normal from the first to the second one.
-struct RightPair {
-  V point1, way;  ///< to the second point
-  bool overlap;
-  std::optional<V> direction;  ///< of any length; none where the cores touch
-};
-
 /// The nearest points are a combination of those of two runs of the algorithm: the pairs of nearest points are a convex
 /// set. Where the cores overlap, they are those of the cores after a shortest translation that parts them: from the
 /// origin to a nearest face of the difference.
-RightPair right_pair(const Reader& r, const Difference& d) {
+template <Body (*read_first)(Reader&), Body (*read_second)(Reader&)>
+Reference reference_signed_distance(Reader r) {
+  const Body a = read_first(r), b = read_second(r);
+  const Difference d(a, b);
   V out{};  // the translation of a, inward where the cores overlap
   const bool meet = square_of(nearest_to_origin(d.all).sum()) == 0;
   const std::vector<V> faces = meet ? nearest_faces(d.all) : std::vector<V>{};
@@ -312,42 +308,34 @@ RightPair right_pair(const Reader& r, const Difference& d) {
   }
   std::vector<V> moved_apart;
   for (const V& x : d.all) moved_apart.push_back(sub(x, out));
-  RightPair right{{}, {}, !faces.empty(), {}};
+  V point1{}, way{};
   const Q share = r.choose.is_free() ? r.choose.share() : Q(0);
   for (const Q& weight : {Q(1 - share), share}) {
     const Combination c = nearest_to_origin(moved_apart, std::size_t(r.choose.below(int(d.all.size()))));
-    right.way = c.sum();
+    way = c.sum();
     for (std::size_t i = 0; i < c.numbers.size(); ++i) {
-      right.point1 = add(right.point1, d.of_a[c.numbers[i]], weight * c.weights[i]);
+      point1 = add(point1, d.of_a[c.numbers[i]], weight * c.weights[i]);
     }
   }
-  if (right.overlap) right.way = out;
-  if (square_of(right.way) != 0) right.direction = right.overlap ? scaled(right.way, -1) : right.way;
-  return right;
-}
-std::vector<V> opposite(std::vector<V> all) {
-  for (V& x : all) x = scaled(x, -1);
-  return all;
-}
-
-/// The place on the surface that is off a point of the core along a normal of any length.
-void give_place(Reference& reference, const V& core, const V& normal, const Q& radius) {
-  const R n = length(normal);
-  for (int k = 0; k < 3; ++k) reference.give(R(real(core[k]) + real(radius) * real(normal[k]) / n));
-}
-
-template <Body (*read_first)(Reader&), Body (*read_second)(Reader&)>
-Reference reference_signed_distance(Reader r) {
-  const Body a = read_first(r), b = read_second(r);
-  const Difference d(a, b);
-  RightPair right = right_pair(r, d);
-  const R apart = right.overlap ? R(-length(right.way)) : length(right.way);
+  const bool overlap = !faces.empty();
+  if (overlap) way = out;
+  const V point2 = add(point1, way);
+  const R apart = overlap ? R(-length(way)) : length(way);
   Reference reference = yes(R(apart - real(Q(a.radius + b.radius))));
-  if (!right.direction) right.direction = r.choose.in_cone({}, opposite(d.all));  // any that separates weakly
-  if (!right.direction) return reference;
-  reference.give_unit(*right.direction);
-  give_place(reference, right.point1, *right.direction, a.radius);
-  give_place(reference, add(right.point1, right.way), *right.direction, -b.radius);
+  std::optional<V> direction = overlap ? scaled(way, -1) : way;
+  if (square_of(way) == 0) {  // any that separates weakly
+    std::vector<V> against;
+    for (const V& x : d.all) against.push_back(scaled(x, -1));
+    direction = r.choose.in_cone({}, against);
+  }
+  if (!direction) return reference;
+  reference.give_unit(*direction);
+  const R n = length(*direction);
+  const auto moved = [&](const V& x, const Q& by) {
+    for (int k = 0; k < 3; ++k) reference.give(R(real(x[k]) + real(by) * real((*direction)[k]) / n));
+  };
+  moved(point1, a.radius);
+  moved(point2, -b.radius);
   return reference;
 }
 
@@ -364,117 +352,6 @@ Reference reference_signed_distance(Reader r) {
   for (int k = 0; k < 3; ++k) reference.give(R(real(from[k]) - real(a.radius) * real(b.normal[k]) / n));
   reference.give(add(from, b.normal, -b.height(from) / square_of(b.normal)));
   return reference;
-}
-
-Body moved(Body body, const V& way) {
-  for (V& v : body.vertices) v = add(v, way);
-  return body;
-}
-
-/// A time within which no vertex passes a face.
-const Q& moment() {
-  static const Q short_time = Q(1) / Q(mpz_class(1) << 4096);
-  return short_time;
-}
-/// Whether the first body was inside the second one just before.
-bool leaves_inside(const Body& a, const V& velocity, const Body& b) {
-  return !planes_around_origin(Difference(moved(a, scaled(velocity, -moment())), b).all).empty();
-}
-
-/// A normal of cores that touch, from the first to the second one, which the motion does not point against. If the
-/// motion leads inside, it is a combination of the normals of those faces that the motion passes just then; otherwise
-/// the difference has no volume there, or the motion leads along it.
-std::optional<V> normal_of_touch(const Reader& r, const Body& a, const V& velocity, const Body& b,
-                                 const Difference& d) {
-  std::vector<V> passed;
-  for (const V& face : planes_around_origin(Difference(moved(a, scaled(velocity, moment())), b).all)) {
-    if (dot(face, velocity) * moment() == -1) passed.push_back(scaled(face, -1));
-  }
-  if (!passed.empty()) {
-    V normal = r.choose.among(passed);
-    if (r.choose.below(2) == 0)
-      normal = add(normal, r.choose.among(passed), r.choose.is_free() ? r.choose.share() : Q(0));
-    return normal;
-  }
-  std::vector<V> against = opposite(d.all);
-  against.push_back(scaled(velocity, -1));
-  constexpr int tries = 8;
-  for (int i = 0; i < tries; ++i) {
-    std::vector<V> along;
-    for (int edges = r.choose.below(3); edges > 0; --edges) along.push_back(r.choose.among(against));
-    if (const auto normal = r.choose.in_cone(along, against)) return normal;
-  }
-  return std::nullopt;
-}
-
-/// The squared distance of the line of motion from the difference: that of the shadows along it.
-Q distance2_of_line(const Difference& d, const V& velocity) {
-  std::vector<V> shadow;
-  const Q speed2 = square_of(velocity);
-  for (const V& x : d.all) shadow.push_back(add(x, velocity, -dot(x, velocity) / speed2));
-  return square_of(nearest_to_origin(shadow).sum());
-}
-
-/// A number of some 400 bits, not above x.
-Q rounded_down(const Q& x) {
-  const auto bits = [](const mpz_class& n) { return long(mpz_sizeinbase(n.get_mpz_t(), 2)); };
-  const long shift = 400 + bits(x.get_den()) - bits(x.get_num());
-  const Q unit = shift > 0 ? Q(mpz_class(1) << unsigned(shift)) : Q(1) / Q(mpz_class(1) << unsigned(-shift));
-  const Q scaled_up = x * unit;
-  mpz_class whole;
-  mpz_fdiv_q(whole.get_mpz_t(), scaled_up.get_num().get_mpz_t(), scaled_up.get_den().get_mpz_t());
-  return Q(whole) / unit;
-}
-
-/// Steps as long as the gap along the nearest points' direction allows, from before the contact: exact ones of bodies
-/// without radii, which end, else until they are too short to matter. Where the line of motion only touches, the steps
-/// get shorter slowly: then only the decision is known.
-template <Body (*read_first)(Reader&), Body (*read_second)(Reader&)>
-Reference reference_cast(Reader r) {
-  const Body a = read_first(r);
-  const V velocity = r.vector();
-  const Body b = read_second(r);
-  const Q radii = a.radius + b.radius, radii2 = radii * radii;
-  const auto contact_at = [&](const Q& time) {
-    Reference reference = yes(time);
-    const Body then = moved(a, scaled(velocity, time));
-    const Difference d(then, b);
-    RightPair right = right_pair(r, d);
-    if (!right.direction && radii == 0) right.direction = normal_of_touch(r, then, velocity, b, d);
-    if (!right.direction && radii > 0) right.direction = r.choose.in_cone({}, opposite(d.all));
-    if (!right.direction) return reference;
-    give_place(reference, add(right.point1, right.way), *right.direction, -b.radius);
-    reference.give_unit(scaled(*right.direction, -1));
-    return reference;
-  };
-  const Difference start(a, b);
-  const V nearest = nearest_to_origin(start.all).sum();
-  if (square_of(nearest) < radii2) return contact_at(0);
-  if (radii == 0 && square_of(nearest) == 0 && !nearest_faces(start.all).empty()) return contact_at(0);
-  if (square_of(nearest) == radii2) {
-    const bool leaves = radii > 0 ? dot(nearest, velocity) < 0 : leaves_inside(a, velocity, b);
-    return leaves ? no() : contact_at(0);
-  }
-  if (dot(nearest, velocity) <= 0) return no();
-  const Q line2 = distance2_of_line(start, velocity);
-  if (line2 > radii2) return no();
-  if (line2 == radii2 && radii > 0) return {true, {}};
-  Q time = 0;
-  const Q least = Q(1) / Q(mpz_class(1) << 300);
-  while (true) {
-    const V way = nearest_to_origin(Difference(moved(a, scaled(velocity, time)), b).all).sum();
-    const Q along = dot(way, velocity);
-    if (square_of(way) <= radii2 || along <= 0) break;
-    if (radii == 0) {
-      time += square_of(way) / along;
-      continue;
-    }
-    const R distance = length(way);
-    const Q step = rounded_down(Q(R((distance - real(radii)) * distance / real(along))));
-    if (step <= least * (time + step)) break;
-    time = rounded_down(Q(time + step));
-  }
-  return contact_at(time);
 }
 
 /// The height of a lowest point at the times 0 and 1 gives the line that it follows.

@@ -448,9 +448,9 @@ INSTANTIATE_TEST_SUITE_P(
                               if (a.yes) a.values[0] *= 1.25;
                               return a;
                             }},
-                    Planted{"gap-before-contact", "moving_capsule_box",  // a time that is a quarter too short
+                    Planted{"gap-before-contact", "moving_capsule_halfspace",  // a time that is a quarter too short
                             [](std::span<const double> v) {
-                              Answer a = right("moving_capsule_box", v);
+                              Answer a = right("moving_capsule_halfspace", v);
                               if (a.yes) a.values[0] *= 0.75;
                               return a;
                             }},

@@ -186,11 +186,11 @@ double next_to(double x, int way, Scalar s) {
   return s == Scalar::float32 ? double(std::nextafter(float(x), way * HUGE_VALF)) : std::nextafter(x, way * HUGE_VAL);
 }
 
-/// Moves each number up or down by an ulp, or not at all; flags and indices stay.
+/// Moves each number up or down by an ulp, or not at all; flags, indices and infinities stay.
 Answer pushed(const Query& query, Scalar scalar, Answer a, std::mt19937_64& random) {
   for (std::size_t i = 0; i < query.outputs.size(); ++i) {
     const Role role = query.outputs[i].role;
-    if (!a.gives(i) || role == Role::flag || role == Role::index) continue;
+    if (!a.gives(i) || role == Role::flag || role == Role::index || std::isinf(a.values[i])) continue;
     a.values[i] = next_to(a.values[i], int(random() % 3) - 1, scalar);
   }
   return a;
@@ -290,7 +290,6 @@ TEST_P(Watch, WhatIsWrongIsTold) {
   }
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts[k].role == Role::index) continue;
-    if (parts[k].role == Role::normal && query().name == "moving_point_segment") continue;  // a circle of right ones
     EXPECT_GT(by_part[k], 0) << query().outputs[parts[k].begin].name << " was never wrong";
   }
 }

@@ -3,8 +3,6 @@
 #include <gmp.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -83,23 +81,17 @@ void record(const Work& largest) {
 }
 
 bool is_distance_of_box(const Query& q) { return q.name.ends_with("_box_signed_distance"); }
-bool is_cast_of_faces(const Query& q) {
-  constexpr std::array names{"moving_triangle_triangle", "moving_segment_box", "moving_capsule_box",
-                             "moving_triangle_box", "moving_box_box"};
-  return std::find(names.begin(), names.end(), q.name) != names.end();
-}
 
 /// Four times the cost of the costliest case (two boxes' penetration: 27,000 allocations, 2.2 MB; the distance of two
 /// boxes whose numbers differ by 10^500, so that intervals leave 200 directions for exact numbers: 138,000 allocations,
-/// 46 MB, and a cast of such shapes, which asks for the distance at the start and at the contact).
+/// 46 MB).
 constexpr Work most_of_the_oracle{100'000, 8'000'000}, most_for_distances_of_boxes{550'000, 184'000'000};
 
 class WorkOfTheOracle : public testing::TestWithParam<NamedQuery> {};
 
 TEST_P(WorkOfTheOracle, IsBoundedWhateverTheNumbers) {
   const Query& query = *GetParam().query;
-  const bool is_costly = is_distance_of_box(query) || is_cast_of_faces(query);
-  const Work& most = is_costly ? most_for_distances_of_boxes : most_of_the_oracle;
+  const Work& most = is_distance_of_box(query) ? most_for_distances_of_boxes : most_of_the_oracle;
   Work largest;
   for (const Scalar scalar : scalars) {
     largest = larger(largest, largest_work(query, scalar, 60, most,

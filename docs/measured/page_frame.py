@@ -23,7 +23,7 @@ def catalogue():
     folder = pathlib.Path(__file__).resolve().parents[2] / "impl" / "catalogue"
     queries = re.findall(r"^NEARMISS_QUERY\((\w+)\)", (folder / "catalogue.def").read_text(), re.MULTILINE)
     grid = re.findall(r"^NEARMISS_([A-Z_]+)\(([a-z]+), ([a-z]+)\)", (folder / "grid.def").read_text(), re.MULTILINE)
-    names = {"CAST": "moving_{}_{}", "CAST_TWO_SIDED": "moving_{}_{}_two_sided"}
+    names = {"CAST": "moving_{}_{}"}
     return queries + [names.get(operation, "{}_{}_" + operation.lower()).format(first, second)
                       for operation, first, second in grid]
 

@@ -198,21 +198,19 @@ struct BulletMotion {
   }
 };
 
-/// The ray test of a triangle: of its front, or of both sides.
+/// The ray test of a triangle's front.
 struct BulletTriangleRay {
-  BulletTriangleRay(const Vec3d& start, const Vec3d& end, const collide::Triangle<double>& t, bool front_alone = true)
+  BulletTriangleRay(const Vec3d& start, const Vec3d& end, const collide::Triangle<double>& t)
       : from(BulletShapes::vector(start)),
         to(BulletShapes::vector(end)),
-        corners{BulletShapes::vector(t.v0), BulletShapes::vector(t.v1), BulletShapes::vector(t.v2)},
-        flags(front_alone ? btTriangleRaycastCallback::kF_FilterBackfaces : btTriangleRaycastCallback::kF_None) {}
+        corners{BulletShapes::vector(t.v0), BulletShapes::vector(t.v1), BulletShapes::vector(t.v2)} {}
   std::optional<BulletHit> cast() {
-    Nearest nearest(from, to, flags);
+    Nearest nearest(from, to, btTriangleRaycastCallback::kF_FilterBackfaces);
     nearest.processTriangle(corners, 0, 0);
     return nearest.hit ? std::optional(BulletHit{nearest.m_hitFraction, nearest.normal}) : std::nullopt;
   }
 
   btVector3 from, to, corners[3];
-  unsigned flags;
 
  private:
   struct Nearest final : btTriangleRaycastCallback {
@@ -317,7 +315,7 @@ struct BulletInDoubles : private BulletShapes {
     const Vec3d end = start + q.velocity * horizon;
     if (horizon == 0 || !fits(end)) return CannotAnswer{no_cast};
     if constexpr (is_triangle<Shape>) {
-      const auto hit = BulletTriangleRay(start, end, target, Q::traits.one_sided).cast();
+      const auto hit = BulletTriangleRay(start, end, target).cast();
       return hit ? Reply<Impact>(first_contact(*hit, horizon)) : Impact::miss();
     } else if constexpr (is_aabox<Shape>) {
       if (contains(target, start)) return CannotAnswer{"btRayAabb is asked from outside"};

@@ -308,18 +308,10 @@ class Enclosing {
   std::optional<long> exponent_;
 };
 
-/// Encloses a direction, whose length and its unit are its own.
-inline Vector<Interval> enclosed_direction(const Vector<Exact>& v) {
-  Enclosing own;
-  own.reach(v);
-  return own(v);
-}
-
-/// Encloses two exact cores whose vertices are relative to one of them, in a unit of length that both share; with their
-/// radii where these count.
-inline std::array<Core<Interval>, 2> enclosing(const Core<Exact>& a, const Core<Exact>& b, bool with_radii = false) {
+/// Encloses two exact cores whose vertices are relative to one of them, in a unit of length that both share. The length
+/// of a direction, and its unit, are its own.
+inline std::array<Core<Interval>, 2> enclosing(const Core<Exact>& a, const Core<Exact>& b) {
   Enclosing lengths;
-  if (with_radii) lengths.reach({a.radius, b.radius, Exact(0)});
   for (const Core<Exact>* exact : {&a, &b}) {
     for (const std::vector<Vector<Exact>>* vectors : {&exact->vertices, &exact->reach}) {
       for (const Vector<Exact>& v : *vectors) lengths.reach(v);
@@ -330,15 +322,19 @@ inline std::array<Core<Interval>, 2> enclosing(const Core<Exact>& a, const Core<
     std::transform(vectors.begin(), vectors.end(), std::back_inserter(enclosures), enclose);
     return enclosures;
   };
+  const auto direction = [](const Vector<Exact>& v) {
+    Enclosing own;
+    own.reach(v);
+    return own(v);
+  };
   const auto enclose = [&](const Core<Exact>& exact) {
     Core<Interval> core;
     core.vertices = enclose_all(exact.vertices, lengths);
     core.reach = enclose_all(exact.reach, lengths);
     if (!exact.reach.empty()) core.center = lengths(exact.center);
-    core.directions = enclose_all(exact.directions, enclosed_direction);
-    core.normals = enclose_all(exact.normals, enclosed_direction);
-    for (const auto& [from, along] : exact.edges) core.edges.push_back({from, enclosed_direction(along)});
-    if (with_radii) core.radius = lengths({exact.radius, Exact(0), Exact(0)})[0];
+    core.directions = enclose_all(exact.directions, direction);
+    core.normals = enclose_all(exact.normals, direction);
+    for (const auto& [from, along] : exact.edges) core.edges.push_back({from, direction(along)});
     return core;
   };
   return {enclose(a), enclose(b)};

@@ -149,7 +149,7 @@ if (got_yes) {
 )";
 
 constexpr std::string_view triangle_ray =
-    R"(Nearest nearest(btVector3($from), btVector3($end), btTriangleRaycastCallback::$side);
+    R"(Nearest nearest(btVector3($from), btVector3($end), btTriangleRaycastCallback::kF_FilterBackfaces);
 nearest.processTriangle($b, 0, 0);
 got_yes = nearest.hit;
 if (got_yes) {
@@ -198,11 +198,10 @@ if (deepest.any) {
 }
 )";
 
-Asking point_motion(const CaseShapes& shapes, Scalar scalar, bool is_one_sided) {
+Asking point_motion(const CaseShapes& shapes, Scalar scalar) {
   const NamedShape b = target_of(shapes);
   Words cast = cast_of(moving_of(shapes), b, scalar);
   if (is_a<Triangle>(b)) {
-    cast.emplace_back("side", is_one_sided ? "kF_FilterBackfaces" : "kF_None");
     return {.helpers = std::string(triangle_helpers),
             .statements = nearmiss::declared(b, points_of_triangle, "Bullet") + call(triangle_ray, b, b, cast),
             .members = {"time", "normal"}};
@@ -217,7 +216,7 @@ Asking point_motion(const CaseShapes& shapes, Scalar scalar, bool is_one_sided) 
 
 Asking asking_of(const Case& question) {
   const CaseShapes shapes(question);
-  if (shapes.has("point.x")) return point_motion(shapes, question.scalar, question.query->traits.one_sided);
+  if (shapes.has("point.x")) return point_motion(shapes, question.scalar);
   const auto [a, b] = sides_of(shapes);
   if (asks_signed_distance(*question.query) && is_a<HalfSpace>(b)) {
     return {.helpers = std::string(contact_helpers),

@@ -30,19 +30,11 @@ constexpr Ties ties_of(std::string_view first, std::string_view second) {
   const bool may_be_parallel = has_edges(first) && has_edges(second);
   return has_size(first) || has_size(second) || may_be_parallel ? Ties{Tie::position, Tie::cone} : Ties{Tie::cone};
 }
-/// The place of a contact is on the second shape: the normal does not move it where that has no size.
-constexpr Ties ties_of_cast(std::string_view first, std::string_view second) {
-  if (second == "halfspace" || has_size(second) || (has_edges(first) && has_edges(second)))
-    return ties_of(first, second);
-  return {Tie::cone};
-}
 constexpr Role role_of(std::string_view shape) { return shape == "point" ? Role::position : Role::inherited; }
 
-/// Half-spaces are large: a body is more often within one, or far away, than at its plane. A point seldom meets a
-/// segment.
-constexpr Balance balance_of(std::string_view first, std::string_view second) {
-  if (second == "halfspace") return {.knifes_edge_per_mille = 7};
-  return first == "point" && second == "segment" ? Balance{.either_percent = 10} : Balance{};
+/// Half-spaces are large: a body is more often within one, or far away, than at its plane.
+constexpr Balance balance_of(std::string_view second) {
+  return second == "halfspace" ? Balance{.knifes_edge_per_mille = 7} : Balance{};
 }
 
 /// The same question about two other shapes: a point is a sphere of radius 0, and a segment is a capsule of radius 0.
@@ -178,34 +170,6 @@ constexpr Link cast_of_box_halfspace[] = {at_rest(query_id("box_halfspace_overla
                                            .to = query_id("moving_sphere_halfspace"),
                                            .renamed = {{{"sphere.center", "box.center"}, {"sphere.radius", "-"}}}}};
 
-constexpr std::span<const Link> cast_of_point_segment{}, cast_of_segment_segment{}, cast_of_point_triangle{};
-constexpr Link cast_of_sphere_segment[] = {at_rest(query_id("sphere_segment_overlap")),
-                                           as_point(query_id("moving_point_segment"), {{{"point", "sphere.center"}}})};
-constexpr Link cast_of_segment_capsule[] = {at_rest(query_id("segment_capsule_overlap"))};
-constexpr Link cast_of_capsule_capsule[] = {
-    {.kind = Link::Kind::at_rest,
-     .to = query_id("capsule_capsule_overlap"),
-     .renamed = {{{"capsule1", "capsule"}, {"capsule2", "fixed"}}}},
-    as_sphere(query_id("moving_sphere_capsule"),
-              {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}, {"capsule", "fixed"}}})};
-constexpr Link cast_of_sphere_triangle[] = {
-    at_rest(query_id("sphere_triangle_overlap")),
-    as_point(query_id("moving_point_triangle_two_sided"), {{{"point", "sphere.center"}}})};
-constexpr Link cast_of_segment_triangle[] = {at_rest(query_id("segment_triangle_overlap"))};
-constexpr Link cast_of_capsule_triangle[] = {
-    at_rest(query_id("capsule_triangle_overlap")),
-    as_sphere(query_id("moving_sphere_triangle_two_sided"),
-              {{{"sphere.center", "capsule.p0"}, {"sphere.radius", "capsule.radius"}}})};
-constexpr Link cast_of_triangle_triangle[] = {{.kind = Link::Kind::at_rest,
-                                               .to = query_id("triangle_triangle_overlap"),
-                                               .renamed = {{{"triangle1", "triangle"}, {"triangle2", "fixed"}}}}};
-constexpr Link cast_of_segment_box[] = {at_rest(query_id("segment_box_overlap"))};
-constexpr Link cast_of_capsule_box[] = {at_rest(query_id("capsule_box_overlap"))};
-constexpr Link cast_of_triangle_box[] = {at_rest(query_id("triangle_box_overlap"))};
-constexpr Link cast_of_box_box[] = {{.kind = Link::Kind::at_rest,
-                                     .to = query_id("box_box_overlap"),
-                                     .renamed = {{{"box1", "box"}, {"box2", "fixed"}}}}};
-
 }  // namespace grid
 
 #define NEARMISS_OVERLAP(first, second)                                                                   \
@@ -225,7 +189,7 @@ constexpr Link cast_of_box_box[] = {{.kind = Link::Kind::at_rest,
                                                                                                           \
     static constexpr Traits traits{.grows = grid::has_size(#first) || grid::has_size(#second),            \
                                    .exchange = alike ? Exchange::always : Exchange::none,                 \
-                                   .balance = grid::balance_of(#first, #second),                          \
+                                   .balance = grid::balance_of(#second),                                  \
                                    .links = grid::of_##first##_##second};                                 \
   };
 #include "impl/catalogue/grid.def"
@@ -268,8 +232,8 @@ constexpr Link cast_of_box_box[] = {{.kind = Link::Kind::at_rest,
     }                                                                                          \
                                                                                                \
     static constexpr Traits traits{.grows = grid::has_size(#first) || grid::has_size(#second), \
-                                   .ties = grid::ties_of_cast(#first, #second),                \
-                                   .balance = grid::balance_of(#first, #second),               \
+                                   .ties = grid::ties_of(#first, #second),                     \
+                                   .balance = grid::balance_of(#second),                       \
                                    .links = grid::cast_of_##first##_##second};                 \
   };
 #include "impl/catalogue/grid.def"

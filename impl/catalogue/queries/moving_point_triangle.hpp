@@ -27,7 +27,6 @@ struct moving_point_triangle {
       {.kind = Link::Kind::at_rest,
        .to = query_id("sphere_triangle_overlap"),
        .renamed = {{{"sphere.center", "point"}, {"sphere.radius", "-"}}}},
-      {.kind = Link::Kind::implied_decision, .to = query_id("moving_point_triangle_two_sided")},
   };
   static constexpr Traits traits{.one_sided = true, .links = links};
 };

@@ -21,7 +21,6 @@ struct moving_sphere_triangle {
 
   static constexpr Link links[] = {
       {.kind = Link::Kind::at_rest, .to = query_id("sphere_triangle_overlap")},
-      {.kind = Link::Kind::implied_decision, .to = query_id("moving_sphere_triangle_two_sided")},
   };
   static constexpr Traits traits{.one_sided = true, .grows = true, .ties = {Tie::cone}, .links = links};
 };
